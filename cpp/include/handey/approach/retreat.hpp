@@ -1,0 +1,36 @@
+// Straight motion of the hand out of contact: lifting a part off what it stands on, drawing the open hand back from a part.
+// Reversed it is the deposit, or a straight approach. Every edge is certified; while the part has moved less than
+// `contact_travel`, the contacts it stood in are allowed, and only if the motion does not deepen them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "handey/collision/certificate.hpp"
+#include "handey/kinematics/path.hpp"
+
+namespace handey {
+
+struct RetreatOptions {
+  double least = 0.02;             ///< shorter is a failure [m]
+  double most = 0.10;              ///< stops there [m]
+  double step = 0.01;              ///< between two hand poses [m]
+  double contact_travel = 0.0015;  ///< first step, with contacts allowed [m]
+  CertificateOptions certificate;
+};
+
+struct RetreatResult {
+  bool found = false;
+  std::vector<Configuration> path;  ///< from the contact outwards; certified
+  double travelled = 0.0;           ///< [m]
+  std::string reason;
+};
+
+/// @param in_contact  checker with the contacts allowed (used for the first step only); may be the same as `clear`
+/// @param clear       checker without them
+/// @param direction   of the hand's motion, world [unit vector]
+RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear, const SphericalWristSolver& solver,
+                           const Configuration& start, const Eigen::Vector3d& direction,
+                           const RetreatOptions& options = {});
+
+}  // namespace handey

@@ -1,0 +1,23 @@
+// What is near the part at its origin, and what will be near it at its destination, both seen from the part: destination
+// obstacles moved by T^-1 (article, Figure 4).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "handey/world/cell.hpp"
+
+namespace handey {
+
+/// A body seen from the part.
+struct NearbyBody {
+  BodyRef body;
+  std::string name;
+  bool at_destination = false;     ///< moved by T^-1
+  Pose X_PB = Pose::Identity();    ///< the body in the part frame
+};
+
+/// Fixtures and other parts whose bounding box comes within `radius` [m] of the part's, at either end.
+std::vector<NearbyBody> nearby_bodies(const Cell& cell, int part, const Pose& X_WP_goal, double radius = 0.25);
+
+}  // namespace handey

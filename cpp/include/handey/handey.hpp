@@ -1,0 +1,41 @@
+// The whole of handey's C++ library, floor by floor, lowest first.
+#pragma once
+
+#include "handey/errors.hpp"
+
+// geometry
+#include "handey/geometry/pose.hpp"
+#include "handey/geometry/polygon.hpp"
+#include "handey/geometry/polyhedron.hpp"
+#include "handey/geometry/convex_pieces.hpp"
+#include "handey/geometry/shape.hpp"
+#include "handey/geometry/section.hpp"
+#include "handey/geometry/mesh_file.hpp"
+// kinematics
+#include "handey/kinematics/gripper.hpp"
+#include "handey/kinematics/arm.hpp"
+#include "handey/kinematics/spherical_wrist.hpp"
+#include "handey/kinematics/urdf.hpp"
+#include "handey/kinematics/path.hpp"
+// world
+#include "handey/world/body.hpp"
+#include "handey/world/cell.hpp"
+// collision
+#include "handey/collision/checker.hpp"
+#include "handey/collision/certificate.hpp"
+// grasp
+#include "handey/grasp/features.hpp"
+#include "handey/grasp/backproject.hpp"
+#include "handey/grasp/ranking.hpp"
+#include "handey/grasp/legality.hpp"
+// approach
+#include "handey/approach/grid.hpp"
+#include "handey/approach/bump_lines.hpp"
+#include "handey/approach/quasipotential.hpp"
+#include "handey/approach/approach.hpp"
+#include "handey/approach/retreat.hpp"
+// motion
+#include "handey/motion/sampling.hpp"
+#include "handey/motion/shortcut.hpp"
+#include "handey/motion/gross.hpp"
+#include "handey/motion/timing.hpp"

@@ -1,0 +1,61 @@
+// Closed-form inverse kinematics of six-joint arms whose second and third axes are parallel and whose last
+// three axes meet in a point (Puma, and the ortho-parallel arms of ABB, KUKA, Fanuc, Staubli).
+// Each joint triple reduces to equations A cos q + B sin q = C in the arm's own axis lines, so no DH
+// convention enters. Up to 8 branches; every wrap of a joint that has more than one turn is returned.
+// Not guaranteed: accuracy better than 1e-9 within about 1e-3 rad of a singularity, which is reported.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "handey/kinematics/arm.hpp"
+
+namespace handey {
+
+/// How far from a singularity, 0 at it, at most 1.
+struct SingularityMargin {
+  double shoulder = 1.0;  ///< wrist centre on the cylinder where both arm branches merge
+  double elbow = 1.0;     ///< arm stretched or folded
+  double wrist = 1.0;     ///< axes 4 and 6 in line: |sin| of joint 5's angle from there
+};
+
+struct InverseSolution {
+  Eigen::VectorXd q;  ///< within limits [rad]
+  int branch = 0;     ///< 0..7: shoulder + 2 * elbow + 4 * wrist
+  SingularityMargin margin;
+};
+
+enum class InverseStatus { Solved, InsideShoulderCylinder, TooFar, TooClose, OutsideLimits };
+
+struct InverseResult {
+  InverseStatus status = InverseStatus::TooFar;
+  std::vector<InverseSolution> solutions;  ///< ordered by branch, then wraps ascending
+  double excess = 0.0;  ///< how far out of reach [m], or past its limit the nearest branch's worst joint is [rad]
+  int joint = -1;       ///< that joint, for OutsideLimits
+  std::string reason;   ///< for people: "wrist centre 0.112 m beyond reach", "joint5 0.20 rad past its limit"
+};
+
+class SphericalWristSolver {
+ public:
+  /// @throws InvalidInput (E_KINEMATICS) if the arm is not of this kind, saying which condition fails
+  explicit SphericalWristSolver(const Robot& robot);
+
+  /// All configurations that put the grasp frame at X_RH. At a wrist singularity (margin < 1e-9) joint 4 takes
+  /// `reference`'s value (0 without one) and joint 6 follows. With a reference, continuous joints take the
+  /// turn nearest to it; without one, the turn in (-pi, pi].
+  InverseResult solve(const Pose& X_RH, const Eigen::VectorXd* reference = nullptr) const;
+
+  /// Does the arm belong to this kind?
+  static bool is_supported(const Robot& robot);
+
+ private:
+  Robot robot_;
+  // Axis lines at zero in R, wrist centre, ... (filled by the constructor)
+  Eigen::Matrix<double, 3, 6> directions_;
+  Eigen::Matrix<double, 3, 6> points_;
+  Eigen::Vector3d wrist_centre_;
+  Pose X_RH_zero_;
+};
+
+}  // namespace handey
