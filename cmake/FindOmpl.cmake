@@ -9,7 +9,7 @@ if(NOT TARGET ompl::ompl)
     add_library(ompl::ompl UNKNOWN IMPORTED)
     set_target_properties(ompl::ompl PROPERTIES
       IMPORTED_LOCATION ${Ompl_LIBRARY}
-      INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${Ompl_INCLUDE_DIR}
+      INTERFACE_INCLUDE_DIRECTORIES ${Ompl_INCLUDE_DIR}
       INTERFACE_LINK_LIBRARIES "Boost::headers;Eigen3::Eigen")
   endif()
   mark_as_advanced(Ompl_INCLUDE_DIR Ompl_LIBRARY)

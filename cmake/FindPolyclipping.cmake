@@ -7,6 +7,6 @@ if(Polyclipping_FOUND AND NOT TARGET Polyclipping::polyclipping)
   add_library(Polyclipping::polyclipping UNKNOWN IMPORTED)
   set_target_properties(Polyclipping::polyclipping PROPERTIES
     IMPORTED_LOCATION ${Polyclipping_LIBRARY}
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${Polyclipping_INCLUDE_DIR})
+    INTERFACE_INCLUDE_DIRECTORIES ${Polyclipping_INCLUDE_DIR})
 endif()
 mark_as_advanced(Polyclipping_INCLUDE_DIR Polyclipping_LIBRARY)
