@@ -17,7 +17,8 @@ struct ConvexPolyhedron {
 /// @throws InvalidInput (E_MESH_DEGENERATE) for fewer than four points or points in one plane
 ConvexPolyhedron convex_hull(const std::vector<Eigen::Vector3d>& points);
 
-/// True if every vertex lies within `tolerance` [m] of or below every triangle's plane, and the mesh is closed.
+/// True if every vertex lies within `tolerance` [m] of or below every triangle's plane, and the
+/// mesh is closed.
 bool is_convex(const TriangleMesh& mesh, double tolerance = 1e-6);
 
 /// The hull as triangles.

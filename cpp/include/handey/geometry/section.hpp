@@ -1,6 +1,6 @@
-// What of a solid lies between two parallel planes, seen along their normal: the way obstacles enter the
-// grasp plane and the obstructed part of a face.
-// Errs on the large side: the region returned contains the true projection (to 1e-6 m).
+// What of a solid lies between two parallel planes, seen along their normal: the way obstacles
+// enter the grasp plane and the obstructed part of a face. Errs on the large side: the region
+// returned contains the true projection (to 1e-6 m).
 #pragma once
 
 #include "handey/geometry/polygon.hpp"

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "handey/geometry/pose.hpp"
 #include "handey/geometry/polyhedron.hpp"
+#include "handey/geometry/pose.hpp"
 
 namespace handey {
 
@@ -32,11 +32,12 @@ struct Shape {
   Pose X_BS = Pose::Identity();  ///< shape in body
 };
 
-/// @throws InvalidInput (E_GEOMETRY, E_NUMBER) for sizes that are not finite and positive, or a null mesh
+/// @throws InvalidInput (E_GEOMETRY, E_NUMBER) for sizes that are not finite and positive, or a
+/// null mesh
 void require_valid(const Shape& shape, const std::string& place);
 
-/// The shape as a closed triangle mesh in the body frame. Cylinders and spheres become `segments`-sided
-/// polyhedra that contain them (circumscribed) if `outer`, else inscribed ones.
+/// The shape as a closed triangle mesh in the body frame. Cylinders and spheres become
+/// `segments`-sided polyhedra that contain them (circumscribed) if `outer`, else inscribed ones.
 TriangleMesh tessellate(const Shape& shape, int segments = 32, bool outer = true);
 
 /// Points whose convex hull contains the shape (in the body frame); for meshes its hull's vertices.

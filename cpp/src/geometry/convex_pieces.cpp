@@ -1,0 +1,160 @@
+// Convex hulls by qhull (Barber, Dobkin, Huhdanpaa 1996), its reentrant C interface. Points are
+// centred first, so that a small part far from the origin keeps its precision.
+#include "handey/geometry/convex_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+#include "handey/errors.hpp"
+
+namespace handey {
+namespace {
+
+[[noreturn]] void throw_flat(const std::string& found) {
+  throw InvalidInput("E_MESH_DEGENERATE", "points",
+                     found + ", expected at least four points that are not in one plane");
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// One run of qhull; frees what it took also when it fails.
+class Hull {
+ public:
+  explicit Hull(std::vector<double>& coordinates) : silent_(std::fopen("/dev/null", "w")) {
+    qh_zero(&state_, silent_.get());
+    char command[] = "qhull";  // without Qt: triangles of one plane stay one face
+    const int count = static_cast<int>(coordinates.size() / 3);
+    status_ =
+        qh_new_qhull(&state_, 3, count, coordinates.data(), False, command, nullptr, silent_.get());
+  }
+  ~Hull() {
+    qh_freeqhull(&state_, !qh_ALL);
+    int blocks = 0;
+    int bytes = 0;
+    qh_memfreeshort(&state_, &blocks, &bytes);
+  }
+  Hull(const Hull&) = delete;
+  Hull& operator=(const Hull&) = delete;
+
+  int status() const { return status_; }
+  qhT* state() { return &state_; }
+
+ private:
+  std::unique_ptr<std::FILE, CloseFile> silent_;
+  qhT state_;
+  int status_ = 0;
+};
+
+// The facet's corners as point numbers, counter-clockwise seen from outside.
+std::vector<int> ordered_corners(qhT* qh, facetT* facet,
+                                 const std::vector<Eigen::Vector3d>& points) {
+  std::vector<int> corners;
+  setT* vertices = qh_facet3vertex(qh, facet);
+  vertexT* vertex = nullptr;
+  vertexT** vertexp = nullptr;
+  FOREACHvertex_(vertices) { corners.push_back(qh_pointid(qh, vertex->point)); }
+  qh_settempfree(qh, &vertices);
+  const Eigen::Vector3d outward(facet->normal[0], facet->normal[1], facet->normal[2]);
+  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+  const auto point = [&](std::size_t i) { return points[static_cast<std::size_t>(corners[i])]; };
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice_area += (point(i) - point(0)).cross(point(i + 1) - point(0));
+  }
+  if (twice_area.dot(outward) < 0.0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
+double volume_of(const TriangleMesh& mesh) { return inspect_surface(mesh).volume; }
+
+}  // namespace
+
+ConvexPolyhedron convex_hull(const std::vector<Eigen::Vector3d>& points) {
+  if (points.size() < 4) throw_flat("found " + std::to_string(points.size()) + " points");
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) {
+    if (!point.allFinite()) throw InvalidInput("E_NUMBER", "points", "a point is not finite");
+    middle += point / static_cast<double>(points.size());
+  }
+  std::vector<double> coordinates;
+  coordinates.reserve(points.size() * 3);
+  for (const Eigen::Vector3d& point : points) {
+    for (int k = 0; k < 3; ++k) coordinates.push_back(point[k] - middle[k]);
+  }
+  Hull hull(coordinates);
+  if (hull.status() != 0)
+    throw_flat("found " + std::to_string(points.size()) + " points in one plane or line");
+  ConvexPolyhedron result;
+  std::vector<int> new_index(points.size(), -1);
+  qhT* qh = hull.state();
+  facetT* facet = nullptr;
+  FORALLfacets {
+    std::vector<int> face = ordered_corners(qh, facet, points);
+    for (int& corner : face) {
+      int& index = new_index[static_cast<std::size_t>(corner)];
+      if (index < 0) {
+        index = static_cast<int>(result.vertices.size());
+        result.vertices.push_back(points[static_cast<std::size_t>(corner)]);
+      }
+      corner = index;
+    }
+    if (face.size() >= 3) result.faces.push_back(std::move(face));
+  }
+  return result;
+}
+
+TriangleMesh triangulate(const ConvexPolyhedron& polyhedron) {
+  TriangleMesh mesh;
+  mesh.vertices = polyhedron.vertices;
+  for (const std::vector<int>& face : polyhedron.faces) {
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+      mesh.triangles.emplace_back(face[0], face[i], face[i + 1]);
+  }
+  require_valid(mesh, "polyhedron");
+  return mesh;
+}
+
+bool is_convex(const TriangleMesh& mesh, double tolerance) {
+  if (!(tolerance >= 0.0) || !std::isfinite(tolerance)) {
+    throw InvalidInput("E_RANGE", "tolerance",
+                       "found " + std::to_string(tolerance) + ", expected >= 0 [m]");
+  }
+  const SurfaceReport surface = inspect_surface(mesh);
+  if (!surface.closed || surface.volume <= 0.0) return false;
+  const auto corner = [&mesh](const Eigen::Vector3i& triangle, int k) {
+    return mesh.vertices[static_cast<std::size_t>(triangle[k])];
+  };
+  double surface_area = 0.0;
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const Eigen::Vector3d a = corner(triangle, 0);
+    const Eigen::Vector3d ab = corner(triangle, 1) - a;
+    const Eigen::Vector3d ac = corner(triangle, 2) - a;
+    const Eigen::Vector3d normal = ab.cross(ac);
+    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    surface_area += 0.5 * normal.norm();
+    // A needle has no reliable plane; the comparison of volumes below covers it.
+    if (normal.norm() <= 1e-6 * longest * longest || normal.norm() <= tolerance * longest) continue;
+    const Eigen::Vector3d unit = normal.normalized();
+    const double level = unit.dot(a) + tolerance;
+    for (const Eigen::Vector3d& vertex : mesh.vertices) {
+      if (unit.dot(vertex) > level) return false;
+    }
+  }
+  // Also refuses bodies that count twice (two copies of one box).
+  try {
+    const double hull_volume = volume_of(triangulate(convex_hull(mesh.vertices)));
+    return std::abs(hull_volume - surface.volume) <=
+           2.0 * tolerance * surface_area + 1e-9 * hull_volume;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+}  // namespace handey
