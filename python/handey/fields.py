@@ -90,6 +90,13 @@ class Field:
                 self.child(key, None).fault("E_MISSING", f"key '{key}' is missing")
         return entries
 
+    def mapping_of_anything(self) -> dict[str, Any]:
+        """A mapping whose content is not looked at."""
+        if not isinstance(self.value, dict):
+            self.fault("E_TYPE", f"expected a mapping, found {kind_of(self.value)}")
+            return {}
+        return self.value
+
     def named(self) -> dict[str, Field]:
         """The entries of a mapping from names to anything; empty where nothing is written."""
         if self.value is None:
@@ -198,6 +205,16 @@ class Field:
         """True or false."""
         if not isinstance(self.value, bool):
             self.fault("E_TYPE", f"expected true or false, found {kind_of(self.value)}")
+            return None
+        return self.value
+
+    def count(self) -> int | None:
+        """A whole number, not negative."""
+        if isinstance(self.value, bool) or not isinstance(self.value, int):
+            self.fault("E_TYPE", f"expected a whole number, found {kind_of(self.value)}")
+            return None
+        if self.value < 0:
+            self.fault("E_RANGE", f"expected 0 or more, found {self.value}")
             return None
         return self.value
 
