@@ -1,7 +1,10 @@
-// When to be where: the shortest time along a polyline in joint space (and in the opening) within the velocity and
-// acceleration limits. The rows lie exactly on the polyline, every corner is a row, so what was certified is what is driven.
-// At a corner the speed is such that no joint's velocity jumps by more than its acceleration limit allows in one row
-// interval; the motion starts and ends at rest.
+// When to be where: the shortest time along a polyline in joint space (and in the opening) within
+// the velocity and acceleration limits. The rows lie exactly on the polyline, every corner is a
+// row, so what was certified is what is driven. At a corner the speed is such that no joint's
+// velocity jumps by more than its acceleration limit allows in one row interval, or, where corners
+// follow each other faster, in the time between them; the motion starts and ends at rest. Not
+// guaranteed: the sum of a corner's jump and of the acceleration along its edges keeps to the
+// limit; each alone does.
 #pragma once
 
 #include <vector>
@@ -11,17 +14,27 @@
 namespace handey {
 
 struct TimingOptions {
-  double interval = 0.008;      ///< longest time between rows while the speed changes [s]
-  double speed_scale = 1.0;     ///< of the velocity limits, in (0, 1]
+  double interval = 0.008;   ///< longest time between rows while the speed changes, 1e-4 to 1 [s]
+  double speed_scale = 1.0;  ///< of the velocity limits, in (0, 1]
 };
 
 struct TimedPath {
-  std::vector<double> time;                  ///< from 0, strictly increasing [s]
-  std::vector<Configuration> configurations; ///< one per time
+  std::vector<double> time;                   ///< from 0, strictly increasing [s]
+  std::vector<Configuration> configurations;  ///< one per time
   double duration() const { return time.empty() ? 0.0 : time.back(); }
 };
 
-/// @throws InvalidInput (E_DOF, E_NUMBER, E_LIMIT) for wrong lengths, numbers, or a path outside the joint limits
-TimedPath time_path(const Robot& robot, const std::vector<Configuration>& path, const TimingOptions& options = {});
+/// Waypoints that repeat the one before are dropped; a path that stays at one configuration is one
+/// row at time 0.
+/// @throws InvalidInput (E_EMPTY, E_DOF, E_NUMBER, E_RANGE, E_LIMIT) for an empty path, wrong
+/// lengths, numbers or
+///   options, limits that are not positive, or a path outside the limits of the joints or of the
+///   opening
+TimedPath time_path(const Robot& robot, const std::vector<Configuration>& path,
+                    const TimingOptions& options = {});
+
+/// Least time along a path at the velocity limits alone: sum over the edges of max_j |dq_j| / v_j
+/// [s]. Never more than time_path takes. The inputs are not checked.
+double travel_time(const Robot& robot, const std::vector<Configuration>& path);
 
 }  // namespace handey

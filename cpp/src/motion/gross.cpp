@@ -1,0 +1,73 @@
+#include "handey/motion/gross.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "ends.hpp"
+#include "handey/errors.hpp"
+#include "handey/motion/timing.hpp"
+
+namespace handey {
+namespace {
+
+// Indices of the goals, nearest first; equally near ones in the order given.
+std::vector<int> by_travel_time(const Robot& robot, const Configuration& start,
+                                const std::vector<Configuration>& goals, std::vector<int> order) {
+  std::vector<double> time;
+  for (const Configuration& goal : goals) time.push_back(travel_time(robot, {start, goal}));
+  std::stable_sort(order.begin(), order.end(), [&time](int a, int b) {
+    return time[static_cast<std::size_t>(a)] < time[static_cast<std::size_t>(b)];
+  });
+  return order;
+}
+
+std::string describe_edge(int goal, const EdgeResult& edge) {
+  char text[48];
+  std::snprintf(text, sizeof text, "straight to goal %d, at %.0f %%: ", goal, 100.0 * edge.at);
+  return text + motion::describe(edge.hit);
+}
+
+}  // namespace
+
+MotionResult plan_gross_motion(CollisionChecker& checker, const Configuration& start,
+                               const std::vector<Configuration>& goals,
+                               const GrossOptions& options) {
+  const Robot& robot = *checker.cell().robot;
+  motion::require_ends(robot, start, goals);
+  const CertificateOptions& certificate = options.sampling.certificate;
+  MotionResult result;
+  result.planner = "straight";
+  const motion::FreeEnds ends = motion::free_ends(checker, start, goals, certificate.clearance);
+  if (ends.status != MotionStatus::Found) {
+    result.status = ends.status;
+    result.reason = ends.reason;
+    return result;
+  }
+
+  const std::vector<int> order = by_travel_time(robot, start, goals, ends.goals);
+  std::string obstruction;
+  for (int goal : order) {
+    const Configuration& end = goals[static_cast<std::size_t>(goal)];
+    const EdgeResult edge = certify_edge(checker, start, end, certificate);
+    if (edge.is_free()) {
+      result.status = MotionStatus::Found;
+      result.path = {start, end};
+      result.goal = goal;
+      return result;
+    }
+    if (obstruction.empty()) obstruction = describe_edge(goal, edge);
+  }
+
+  std::vector<Configuration> ordered;
+  for (int goal : order) ordered.push_back(goals[static_cast<std::size_t>(goal)]);
+  result = plan_by_sampling(checker, start, ordered, options.sampling);
+  if (!result.found()) {
+    result.reason = obstruction + "; " + result.reason;
+    return result;
+  }
+  result.goal = order[static_cast<std::size_t>(result.goal)];
+  result.path = shorten_path(checker, result.path, options.shortcut);
+  return result;
+}
+
+}  // namespace handey

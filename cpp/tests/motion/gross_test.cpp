@@ -1,0 +1,120 @@
+// Claims about gross motion: straight where that is free, by sampling where not, nearest goal
+// first, and why it fails.
+#include "handey/motion/gross.hpp"
+
+#include <gtest/gtest.h>
+
+#include "handey/motion/timing.hpp"
+#include "planar_scene.hpp"
+
+namespace handey {
+namespace {
+
+using namespace test;
+
+TEST(Gross, GoesStraightWhereThatIsFree) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  const Configuration goal = configuration(-2.0, 0.5, 0.3);
+  const MotionResult result = plan_gross_motion(checker, below_post(), {goal});
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.planner, "straight");
+  EXPECT_EQ(result.iterations, 0);
+  expect_equal(result.path, {below_post(), goal});
+}
+
+TEST(Gross, StaysWhereTheStartIsAGoal) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  const MotionResult result =
+      plan_gross_motion(checker, below_post(), {above_post(), below_post()});
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.goal, 1);
+  expect_equal(result.path, {below_post(), below_post()});
+}
+
+TEST(Gross, TakesTheGoalNearestByTravelTime) {
+  CollisionChecker checker = checker_of(planar_cell({}));
+  // Joint 3 is three times as fast as joint 1.
+  const MotionResult result = plan_gross_motion(
+      checker, configuration(0, 0, 0),
+      {configuration(0.6, 0, 0), configuration(0, 0, 1.5), configuration(0, 1.3, 0)});
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.goal, 1);
+}
+
+TEST(Gross, FoldsTheArmToPassAPost) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()});
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.planner, "RRT-Connect");
+  EXPECT_GE(result.path.size(), 3u);
+  EXPECT_EQ(result.path.front().q, below_post().q);
+  EXPECT_EQ(result.path.back().q, above_post().q);
+  EXPECT_TRUE(certify_path(checker, result.path).is_free());
+  expect_free(checker, result.path);
+  // The rows that are driven lie on what was proved.
+  const TimedPath timed = time_path(*checker.cell().robot, result.path);
+  for (const Configuration& row : timed.configurations) EXPECT_TRUE(checker.is_free(row, 5e-5));
+}
+
+TEST(Gross, CarriesAPartClearOfTheObstacles) {
+  Cell cell = cell_with_post();
+  Body stick = wall("stick", {0.02, 0.3}, 0.0, 0.0);
+  stick.shapes = {Shape{Box{{0.02, 0.02, 0.30}}, Pose::Identity()}};
+  cell.parts = {stick};
+  const Cell empty_handed = cell.with_part_at(0, at(0.0, 2.0));
+  // Held crosswise, along the closing axis, 0.04 m in front of the fingers: 0.3 m wide in the
+  // plane.
+  const Cell holding =
+      cell.with_held(0, pose_from_xyz_rpy({0, 0, 0.06}, {1.5707963267948966, 0, 0}));
+  CollisionChecker checker = checker_of(holding);
+  const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()});
+  ASSERT_TRUE(result.found()) << result.reason;
+  expect_free(checker, result.path);
+  // Not by chance: the way found with an empty hand does not do.
+  CollisionChecker empty = checker_of(empty_handed);
+  const MotionResult without = plan_gross_motion(empty, below_post(), {above_post()});
+  ASSERT_TRUE(without.found());
+  EXPECT_FALSE(certify_path(checker, without.path).is_free());
+}
+
+TEST(Gross, SaysWhatIsInTheWayWhenItFindsNoWay) {
+  CollisionChecker checker = checker_of(
+      planar_cell({wall("left", {0.9, 0.02}, 0.5, 0.08), wall("right", {0.9, 0.02}, 0.5, -0.08)}));
+  GrossOptions options;
+  options.sampling.max_iterations = 60;
+  const MotionResult result =
+      plan_gross_motion(checker, configuration(0, 0, 0), {configuration(1.5, 0, 0)}, options);
+  EXPECT_EQ(result.status, MotionStatus::IterationLimit);
+  EXPECT_NE(result.reason.find("left"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("60"), std::string::npos) << result.reason;
+}
+
+TEST(Gross, ReportsBlockedEnds) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  const MotionResult start = plan_gross_motion(checker, configuration(0, 0, 0), {above_post()});
+  EXPECT_EQ(start.status, MotionStatus::StartBlocked);
+  EXPECT_NE(start.reason.find("post"), std::string::npos) << start.reason;
+  const MotionResult goals = plan_gross_motion(checker, below_post(), {configuration(0, 0, 0)});
+  EXPECT_EQ(goals.status, MotionStatus::GoalsBlocked);
+  EXPECT_NE(goals.reason.find("post"), std::string::npos) << goals.reason;
+}
+
+TEST(Gross, SameSeedSameResult) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  const MotionResult once = plan_gross_motion(checker, below_post(), {above_post()});
+  plan_gross_motion(checker, above_post(), {below_post()});
+  const MotionResult again = plan_gross_motion(checker, below_post(), {above_post()});
+  expect_equal(once.path, again.path);
+}
+
+TEST(Gross, RefusesWrongInput) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  EXPECT_EQ(code_of([&] { plan_gross_motion(checker, below_post(), {}); }), "E_EMPTY");
+  EXPECT_EQ(code_of([&] {
+              plan_gross_motion(checker, below_post(), {{Eigen::Vector2d(0, 0), 0.04}});
+            }),
+            "E_DOF");
+}
+
+}  // namespace
+}  // namespace handey
