@@ -1,0 +1,103 @@
+"""The C++ floors: a floor includes only itself and floors below it, and public headers see only std and Eigen."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+INCLUDE = ROOT / "cpp" / "include" / "handey"
+SOURCE = ROOT / "cpp" / "src"
+FLOORS = [
+    "geometry",
+    "kinematics",
+    "world",
+    "collision",
+    "grasp",
+    "approach",
+    "cspace",
+    "motion",
+]
+# Only one source room sees each of these libraries.
+ONLY_IN = {"fcl": "collision", "ompl": "motion"}
+
+QUOTED = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+ANGLED = re.compile(r"^\s*#\s*include\s+<([^>]+)>", re.MULTILINE)
+
+
+def _files() -> list[Path]:
+    headers = sorted(INCLUDE.rglob("*.hpp"))
+    return headers + sorted([*SOURCE.rglob("*.cpp"), *SOURCE.rglob("*.hpp")])
+
+
+def _floor(path: Path) -> str | None:
+    parts = path.relative_to(INCLUDE if path.is_relative_to(INCLUDE) else SOURCE).parts
+    return parts[0] if len(parts) > 1 else None
+
+
+def test_there_are_floors_to_check() -> None:
+    assert {_floor(path) for path in _files()} - {None} <= set(FLOORS)
+    assert len(_files()) > 40
+
+
+@pytest.mark.parametrize("path", _files(), ids=lambda path: str(path.relative_to(ROOT)))
+def test_includes_go_down_only(path: Path) -> None:
+    floor = _floor(path)
+    for include in QUOTED.findall(path.read_text()):
+        if not include.startswith("handey/"):
+            resolved = (path.parent / include).resolve()
+            assert resolved.is_file(), f"{include} is not beside {path.name}"
+            assert _floor(resolved) in (floor, None), f"{include} is private to another floor"
+            continue
+        assert (INCLUDE.parent / include).is_file(), f"{include} does not exist"
+        parts = include.split("/")
+        if len(parts) == 2:
+            assert path.name == "handey.hpp" or include == "handey/errors.hpp"
+        elif floor is not None:
+            assert FLOORS.index(parts[1]) <= FLOORS.index(floor), f"{floor} includes {include}"
+
+
+@pytest.mark.parametrize(
+    "path", sorted(INCLUDE.rglob("*.hpp")), ids=lambda path: str(path.relative_to(INCLUDE))
+)
+def test_public_headers_see_only_std_and_eigen(path: Path) -> None:
+    for include in ANGLED.findall(path.read_text()):
+        is_standard = re.fullmatch(r"[a-z_]+", include) is not None
+        assert is_standard or include.startswith("Eigen/"), include
+
+
+@pytest.mark.parametrize("library", sorted(ONLY_IN))
+def test_one_floor_sees_a_library(library: str) -> None:
+    for path in _files():
+        if any(include.startswith(f"{library}/") for include in ANGLED.findall(path.read_text())):
+            assert _floor(path) == ONLY_IN[library], f"{path} sees {library}"
+
+
+def test_only_sampling_sees_ompl() -> None:
+    seeing = {
+        path.name
+        for path in _files()
+        if any(include.startswith("ompl/") for include in ANGLED.findall(path.read_text()))
+    }
+    assert seeing == {"sampling.cpp"}
+
+
+def test_handey_hpp_lists_every_header_in_floor_order() -> None:
+    listed = QUOTED.findall((INCLUDE / "handey.hpp").read_text())
+    present = {
+        str(path.relative_to(INCLUDE.parent))
+        for path in INCLUDE.rglob("*.hpp")
+        if path.name != "handey.hpp"
+    }
+    assert set(listed) == present
+    assert len(listed) == len(set(listed))
+    floors = [include.split("/")[1] for include in listed if include.count("/") == 2]
+    assert floors == sorted(floors, key=FLOORS.index)
+
+
+def test_every_source_is_built() -> None:
+    listing = (ROOT / "CMakeLists.txt").read_text()
+    for path in SOURCE.rglob("*.cpp"):
+        assert f"  {path.relative_to(ROOT)}\n" in listing, path
