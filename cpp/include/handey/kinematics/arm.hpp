@@ -57,6 +57,9 @@ struct Robot {
 /// @throws InvalidInput (E_DOF, E_NUMBER) if q has the wrong length or is not finite
 std::vector<Pose> body_poses(const Robot& robot, const Configuration& configuration);
 
+/// The same into a vector that is used again, for inner loops.
+void body_poses(const Robot& robot, const Configuration& configuration, std::vector<Pose>& poses);
+
 /// Pose of the grasp frame in R: X_RH.
 Pose hand_pose(const Robot& robot, const Eigen::VectorXd& q);
 
