@@ -1,31 +1,21 @@
-// Where every body of the robot is: one walk along the arm's chain, then the two fingers on the hand.
-// Joint values may lie outside the limits; limit_violation says so.
+// Where every body of the robot is: one walk along the arm's chain, then the two fingers on the
+// hand. Joint values may lie outside the limits; limit_violation says so.
 #include "handey/kinematics/arm.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "handey/errors.hpp"
+#include "numbers.hpp"
+#include "rotation.hpp"
 
 namespace handey {
 namespace {
 
 constexpr double kLimitTolerance = 1e-9;  // [rad], stated in the header
 
-/// A turn by `angle` about a unit axis (Rodrigues).
-Eigen::Matrix3d rotation_about(const Eigen::Vector3d& axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle), v = 1.0 - c;
-  const double x = axis.x(), y = axis.y(), z = axis.z();
-  Eigen::Matrix3d rotation;
-  rotation << c + x * x * v, x * y * v - z * s, x * z * v + y * s,  //
-      y * x * v + z * s, c + y * y * v, y * z * v - x * s,          //
-      z * x * v - y * s, z * y * v + x * s, c + z * z * v;
-  return rotation;
-}
-
 Pose pose_of_child(const ArmJoint& joint, const Pose& X_RP, double q) {
   Pose X_RJ = X_RP * joint.X_PJ;
-  X_RJ.linear() *= rotation_about(joint.axis, q);
+  X_RJ.linear() *= kinematics::rotation_about(joint.axis, q);
   return X_RJ;
 }
 
@@ -38,8 +28,9 @@ void require_joint_values(const Robot& robot, const Eigen::VectorXd& q) {
   }
   for (Eigen::Index i = 0; i < dof; ++i) {
     if (!std::isfinite(q[i])) {
-      throw InvalidInput("E_NUMBER", "q[" + std::to_string(i) + "]",
-                         "is " + std::to_string(q[i]) + "; expected a finite number [rad]");
+      throw InvalidInput(
+          "E_NUMBER", "q[" + std::to_string(i) + "]",
+          "is " + kinematics::number_text(q[i]) + "; expected a finite number [rad]");
     }
   }
 }
@@ -89,10 +80,9 @@ std::string limit_violation(const Robot& robot, const Eigen::VectorXd& q) {
     const bool above = value > joint.limit.upper + kLimitTolerance;
     const bool below = value < joint.limit.lower - kLimitTolerance;
     if (!above && !below) continue;
-    char text[96];
-    std::snprintf(text, sizeof text, " = %.9g rad %s %.9g", value,
-                  above ? "exceeds" : "is below", above ? joint.limit.upper : joint.limit.lower);
-    return joint.name + text;
+    return joint.name + " = " + kinematics::number_text(value) + " rad " +
+           (above ? "exceeds " : "is below ") +
+           kinematics::number_text(above ? joint.limit.upper : joint.limit.lower);
   }
   return {};
 }

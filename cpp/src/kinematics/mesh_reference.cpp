@@ -1,7 +1,7 @@
-// A mesh must be a regular STL, OBJ or PLY file inside the URDF's folder, inside the package that the URDF
-// belongs to, or inside the package that it names: a robot file from a stranger cannot make us read elsewhere.
-// A package is known by the caller's table, or as a folder with a package.xml: one that the URDF lies in, or one
-// beside these.
+// A mesh must be a regular STL, OBJ or PLY file inside the URDF's folder, inside the package that
+// the URDF belongs to, or inside the package that it names: a robot file from a stranger cannot
+// make us read elsewhere. A package is known by the caller's table, or as a folder with a
+// package.xml: one that the URDF lies in, or one beside these.
 #include "mesh_reference.hpp"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace handey::kinematics {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostParents = 4;  // Choice: package/urdf/family/robot.urdf, and a workspace around it
+constexpr int kMostParents =
+    4;  // Choice: package/urdf/family/robot.urdf, and a workspace around it
 
 [[noreturn]] void refuse(const std::string& message) { throw InvalidInput("E_PATH", "", message); }
 
@@ -39,8 +40,9 @@ void require_mesh_kind(const fs::path& path, const std::string& filename) {
                        kind == ".gz" || kind == ".step" || kind == ".stp" || kind == ".glb" ||
                        kind == ".gltf";
   if (!foreign) refuse("mesh '" + filename + "' is of no known kind; expected .stl, .obj or .ply");
-  throw InvalidInput("E_UNSUPPORTED", "",
-                     "mesh '" + filename + "': " + kind + " is not read; convert it to .stl, .obj or .ply");
+  throw InvalidInput(
+      "E_UNSUPPORTED", "",
+      "mesh '" + filename + "': " + kind + " is not read; convert it to .stl, .obj or .ply");
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ class MeshReferences {
  private:
   std::filesystem::path package_folder(const std::string& name) const;
 
-  std::filesystem::path folder_;                      ///< of the URDF, real
+  std::filesystem::path folder_;                        ///< of the URDF, real
   std::map<std::string, std::filesystem::path> known_;  ///< packages, real
-  std::vector<std::filesystem::path> trees_;          ///< a plain path must end inside one of these
+  std::vector<std::filesystem::path> trees_;  ///< a plain path must end inside one of these
 };
 
 }  // namespace handey::kinematics

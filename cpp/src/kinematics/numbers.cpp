@@ -1,4 +1,5 @@
-// std::to_chars and std::from_chars only: printf and strtod read and write a decimal comma under some locales.
+// std::to_chars and std::from_chars only: printf and strtod read and write a decimal comma under
+// some locales.
 #include "numbers.hpp"
 
 #include <charconv>

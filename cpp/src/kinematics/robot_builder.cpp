@@ -1,5 +1,6 @@
-// Walks the tree of links from the root. A link under a fixed joint joins its parent's body, any other starts a
-// body of its own. Open meshes become their convex hulls, which contain them: errs on the side of collision.
+// Walks the tree of links from the root. A link under a fixed joint joins its parent's body, any
+// other starts a body of its own. Open meshes become their convex hulls, which contain them: errs
+// on the side of collision.
 #include "robot_builder.hpp"
 
 #include <cmath>
@@ -27,9 +28,13 @@ Pose pose(const urdf::Pose& from) {
 
 class Builder {
  public:
-  Builder(const urdf::ModelInterface& model, const XmlElement& root, const RobotDescription& description,
-          const MeshReferences& references, UrdfFindings& findings)
-      : model_(model), root_(root), description_(description), references_(references),
+  Builder(const urdf::ModelInterface& model, const XmlElement& root,
+          const RobotDescription& description, const MeshReferences& references,
+          UrdfFindings& findings)
+      : model_(model),
+        root_(root),
+        description_(description),
+        references_(references),
         findings_(findings) {}
 
   Robot build() {
@@ -108,13 +113,15 @@ class Builder {
       } catch (const InvalidInput& error) {
         for (const Fault& fault : error.faults()) {
           const std::string inner = fault.place.empty() ? "" : fault.place + ": ";
-          findings_.fault(fault.code.c_str(), *elements[i], "link '" + name + "'", inner + fault.message);
+          findings_.fault(fault.code.c_str(), *elements[i], "link '" + name + "'",
+                          inner + fault.message);
         }
       }
     }
   }
 
-  Geometry geometry(const urdf::Geometry& from, const XmlElement& element, const std::string& link) {
+  Geometry geometry(const urdf::Geometry& from, const XmlElement& element,
+                    const std::string& link) {
     switch (from.type) {
       case urdf::Geometry::BOX:
         return Box{vector(static_cast<const urdf::Box&>(from).dim)};
@@ -142,7 +149,8 @@ class Builder {
     } else {
       findings_.warn(element, "link '" + link + "'",
                      from.filename + ": is not a closed surface; its convex hull stands for it");
-      shape.mesh = std::make_shared<const TriangleMesh>(triangulate(convex_hull(loaded.mesh.vertices)));
+      shape.mesh =
+          std::make_shared<const TriangleMesh>(triangulate(convex_hull(loaded.mesh.vertices)));
     }
     return shape;
   }
@@ -162,18 +170,20 @@ class Builder {
     if (!safety) return limit;
     if (safety->attribute("soft_lower_limit") && joint.safety->soft_lower_limit > limit.lower) {
       limit.lower = joint.safety->soft_lower_limit;
-      findings_.warn(*safety, "joint '" + joint.name + "'",
-                     "the safety controller's lower limit " + number_text(limit.lower) + " is applied");
+      findings_.warn(
+          *safety, "joint '" + joint.name + "'",
+          "the safety controller's lower limit " + number_text(limit.lower) + " is applied");
     }
     if (safety->attribute("soft_upper_limit") && joint.safety->soft_upper_limit < limit.upper) {
       limit.upper = joint.safety->soft_upper_limit;
-      findings_.warn(*safety, "joint '" + joint.name + "'",
-                     "the safety controller's upper limit " + number_text(limit.upper) + " is applied");
+      findings_.warn(
+          *safety, "joint '" + joint.name + "'",
+          "the safety controller's upper limit " + number_text(limit.upper) + " is applied");
     }
     if (!(limit.lower < limit.upper)) {
       findings_.fault("E_LIMIT", *safety, "joint '" + joint.name + "'",
-                      "the safety controller leaves no range: " + number_text(limit.lower) + " to " +
-                          number_text(limit.upper));
+                      "the safety controller leaves no range: " + number_text(limit.lower) +
+                          " to " + number_text(limit.upper));
     }
     return limit;
   }
@@ -203,12 +213,13 @@ class Builder {
     gripper.pad_length = description_.pad_length;
     for (std::size_t i = 0; i < 2; ++i) add_finger(i);
     const Eigen::Vector3d y = gripper.X_BH.linear().col(1);
-    const Eigen::Vector3d first = direction(gripper.fingers[0]), second = direction(gripper.fingers[1]);
+    const Eigen::Vector3d first = direction(gripper.fingers[0]),
+                          second = direction(gripper.fingers[1]);
     if (std::abs(std::abs(first.dot(y)) - 1.0) > kDirectionTolerance * kDirectionTolerance ||
         (first + second).norm() > kDirectionTolerance) {
-      findings_.faults.push_back(
-          {"E_AXIS", "gripper.fingers",
-           "the fingers do not move apart along y of the grasp frame, the closing axis, as their values grow"});
+      findings_.faults.push_back({"E_AXIS", "gripper.fingers",
+                                  "the fingers do not move apart along y of the grasp frame, the "
+                                  "closing axis, as their values grow"});
     }
   }
 
@@ -230,11 +241,11 @@ class Builder {
     finger.velocity = range.velocity;
     const double least = 0.5 * description_.min_opening, most = 0.5 * description_.max_opening;
     if (least < range.lower - kLimitTolerance || most > range.upper + kLimitTolerance) {
-      findings_.faults.push_back(
-          {"E_LIMIT", "gripper.opening",
-           "moves '" + from->name + "' from " + number_text(least) + " to " + number_text(most) +
-               " m (half the opening); its limits are " + number_text(range.lower) + " to " +
-               number_text(range.upper)});
+      findings_.faults.push_back({"E_LIMIT", "gripper.opening",
+                                  "moves '" + from->name + "' from " + number_text(least) + " to " +
+                                      number_text(most) + " m (half the opening); its limits are " +
+                                      number_text(range.lower) + " to " +
+                                      number_text(range.upper)});
     }
   }
 

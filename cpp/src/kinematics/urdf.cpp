@@ -1,6 +1,6 @@
-// From URDF and robot file to a Robot, in three passes: the strict walk (urdf_checks), the parser of ROS
-// (urdfdom), whose result must have as many links, joints and collision shapes as the walk has seen, and the
-// building of bodies, links joined by fixed joints being one.
+// From URDF and robot file to a Robot, in three passes: the strict walk (urdf_checks), the parser
+// of ROS (urdfdom), whose result must have as many links, joints and collision shapes as the walk
+// has seen, and the building of bodies, links joined by fixed joints being one.
 #include "handey/kinematics/urdf.hpp"
 
 #include <console_bridge/console.h>
@@ -30,7 +30,8 @@ class Capture : public console_bridge::OutputHandler {
   Capture(const Capture&) = delete;
   Capture& operator=(const Capture&) = delete;
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
+      text_ += (text_.empty() ? "" : "; ") + text;
   }
   const std::string& text() const { return text_; }
 
@@ -54,13 +55,15 @@ void require_nothing_lost(const urdf::ModelInterface& model, const XmlElement& r
   if (model.links_.size() != links || model.joints_.size() != joints) {
     findings.fault("E_URDF", robot, "",
                    "the parser kept " + std::to_string(model.links_.size()) + " of " +
-                       std::to_string(links) + " links and " + std::to_string(model.joints_.size()) +
-                       " of " + std::to_string(joints) + " joints");
+                       std::to_string(links) + " links and " +
+                       std::to_string(model.joints_.size()) + " of " + std::to_string(joints) +
+                       " joints");
   }
   for (const XmlElement* link : robot.all("link")) {
     const auto found = model.links_.find(link->value("name"));
     const std::size_t expected = link->all("collision").size();
-    const std::size_t kept = found == model.links_.end() ? 0 : found->second->collision_array.size();
+    const std::size_t kept =
+        found == model.links_.end() ? 0 : found->second->collision_array.size();
     if (kept == expected) continue;
     findings.fault("E_URDF", *link, owner_of(*link),
                    "the parser kept " + std::to_string(kept) + " of " + std::to_string(expected) +

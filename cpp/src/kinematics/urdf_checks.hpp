@@ -1,5 +1,6 @@
 // The strict walk over a URDF before it is parsed, in four parts, and what they find.
-// Each part reports all it finds; a later part may rely on what an earlier one has passed only if there were no faults.
+// Each part reports all it finds; a later part may rely on what an earlier one has passed only if
+// there were no faults.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The robot file against the URDF: every name exists and is of the right kind, the arm is one chain from the base,
-// the hand and its fingers are carried by the flange, and nothing else moves.
+// The robot file against the URDF: every name exists and is of the right kind, the arm is one chain
+// from the base, the hand and its fingers are carried by the flange, and nothing else moves.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,7 +13,8 @@ namespace {
 
 class DescriptionWalk {
  public:
-  DescriptionWalk(const XmlElement& robot, const RobotDescription& description, UrdfFindings& findings)
+  DescriptionWalk(const XmlElement& robot, const RobotDescription& description,
+                  UrdfFindings& findings)
       : description_(description), findings_(findings) {
     for (const XmlElement* link : robot.all("link")) links_.push_back(link->value("name"));
     for (const XmlElement* joint : robot.all("joint")) {
@@ -34,7 +35,8 @@ class DescriptionWalk {
     }
     for (const double value : d.acceleration) {
       if (!(value > 0.0 && std::isfinite(value))) {
-        wrong("E_RANGE", "acceleration", "has " + number_text(value) + "; expected more than 0 rad/s2");
+        wrong("E_RANGE", "acceleration",
+              "has " + number_text(value) + "; expected more than 0 rad/s2");
       }
     }
     if (!(d.min_opening >= 0.0 && d.min_opening < d.max_opening && std::isfinite(d.max_opening))) {
@@ -60,7 +62,8 @@ class DescriptionWalk {
     }
     for (const std::string& name : description_.fingers) {
       joint("gripper.fingers", name, {"prismatic"});
-      if (!seen.insert(name).second) wrong("E_DUP", "gripper.fingers", "names '" + name + "' twice");
+      if (!seen.insert(name).second)
+        wrong("E_DUP", "gripper.fingers", "names '" + name + "' twice");
     }
     link("gripper.link", description_.gripper_link);
     for (const auto& [a, b] : description_.ignore_collisions) {
@@ -100,7 +103,8 @@ class DescriptionWalk {
   }
   void all_finite(const std::string& place, const std::vector<double>& values) {
     for (const double value : values) {
-      if (!std::isfinite(value)) wrong("E_NUMBER", place, "has " + number_text(value) + "; expected finite numbers");
+      if (!std::isfinite(value))
+        wrong("E_NUMBER", place, "has " + number_text(value) + "; expected finite numbers");
     }
   }
   void positive(const std::string& place, double value) {
@@ -108,16 +112,19 @@ class DescriptionWalk {
     wrong("E_RANGE", place, "is " + number_text(value) + " m; expected more than 0");
   }
 
-  void joint(const std::string& place, const std::string& name, const std::vector<std::string>& types) {
+  void joint(const std::string& place, const std::string& name,
+             const std::vector<std::string>& types) {
     const auto found = joints_.find(name);
     if (found == joints_.end()) {
       std::vector<std::string> legal;
       for (const XmlElement* each : order_) {
         const std::string type = each->value("type");
-        if (std::find(types.begin(), types.end(), type) != types.end()) legal.push_back(each->value("name"));
+        if (std::find(types.begin(), types.end(), type) != types.end())
+          legal.push_back(each->value("name"));
       }
-      wrong("E_REF", place, "'" + name + "' is no joint of the URDF; " + types.front() +
-                                " joints are " + quoted_list(legal));
+      wrong("E_REF", place,
+            "'" + name + "' is no joint of the URDF; " + types.front() + " joints are " +
+                quoted_list(legal));
       return;
     }
     const std::string type = found->second->value("type");
@@ -127,7 +134,8 @@ class DescriptionWalk {
 
   void link(const std::string& place, const std::string& name) {
     if (std::find(links_.begin(), links_.end(), name) != links_.end()) return;
-    wrong("E_REF", place, "'" + name + "' is no link of the URDF; links are " + quoted_list(links_));
+    wrong("E_REF", place,
+          "'" + name + "' is no link of the URDF; links are " + quoted_list(links_));
   }
 
   /// The joint that moves a link: the first above it that is not fixed, "" for the base.
@@ -142,9 +150,9 @@ class DescriptionWalk {
   void carried(const std::string& place, const std::string& what, const std::string& link) {
     const std::string found = mover_of(link);
     if (found == description_.arm.back()) return;
-    wrong("E_TREE", place, what + " is carried by " +
-                               (found.empty() ? "the base" : "joint '" + found + "'") +
-                               "; expected the arm's last joint, '" + description_.arm.back() + "'");
+    wrong("E_TREE", place,
+          what + " is carried by " + (found.empty() ? "the base" : "joint '" + found + "'") +
+              "; expected the arm's last joint, '" + description_.arm.back() + "'");
   }
 
   void other_joint(const XmlElement& joint) {
@@ -155,8 +163,9 @@ class DescriptionWalk {
         std::count(fingers.begin(), fingers.end(), name)) {
       return;
     }
-    findings_.fault("E_UNSUPPORTED", joint, owner_of(joint),
-                    "moves, but is neither an arm joint nor a finger of the robot file; make it fixed");
+    findings_.fault(
+        "E_UNSUPPORTED", joint, owner_of(joint),
+        "moves, but is neither an arm joint nor a finger of the robot file; make it fixed");
   }
 
   const RobotDescription& description_;

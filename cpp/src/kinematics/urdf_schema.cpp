@@ -1,5 +1,6 @@
-// Which tags and attributes a URDF may have, and where. A misspelt tag would otherwise be dropped in silence,
-// and with it a limit or a collision shape. What other programs keep in a URDF (transmissions, simulators) is let by.
+// Which tags and attributes a URDF may have, and where. A misspelt tag would otherwise be dropped
+// in silence, and with it a limit or a collision shape. What other programs keep in a URDF
+// (transmissions, simulators) is let by.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -65,7 +66,8 @@ bool is_foreign(const std::string& parent, const std::string& tag) {
   return parent == "link" && tag == "contact";
 }
 
-std::vector<std::string> names(const std::set<std::string>& a, const std::set<std::string>& b = {}) {
+std::vector<std::string> names(const std::set<std::string>& a,
+                               const std::set<std::string>& b = {}) {
   std::vector<std::string> all(a.begin(), a.end());
   all.insert(all.end(), b.begin(), b.end());
   return all;
@@ -99,8 +101,8 @@ class SchemaWalk {
       if (key.find(':') != std::string::npos || key.rfind("xmlns", 0) == 0) continue;
       if (rule.attributes.count(key)) continue;
       findings_.fault("E_UNKNOWN_ATTR", element, owner,
-                      "<" + element.name + "> has the unknown attribute '" + key +
-                          "'; known are " + quoted_list(names(rule.attributes)));
+                      "<" + element.name + "> has the unknown attribute '" + key + "'; known are " +
+                          quoted_list(names(rule.attributes)));
     }
   }
 
@@ -132,7 +134,8 @@ class SchemaWalk {
 
 void check_schema(const XmlElement& robot, UrdfFindings& findings) {
   if (robot.name != "robot") {
-    findings.fault("E_ROOT", robot, "", "the root element is <" + robot.name + ">; expected <robot>");
+    findings.fault("E_ROOT", robot, "",
+                   "the root element is <" + robot.name + ">; expected <robot>");
     return;
   }
   SchemaWalk(findings).visit(robot, "");

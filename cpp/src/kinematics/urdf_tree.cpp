@@ -1,5 +1,5 @@
-// The links and joints of a URDF as one tree: every name that is referred to exists, no link has two parents,
-// one link has none, and all others hang from it.
+// The links and joints of a URDF as one tree: every name that is referred to exists, no link has
+// two parents, one link has none, and all others hang from it.
 #include <map>
 #include <set>
 
@@ -80,8 +80,9 @@ void check_connected(const XmlElement& robot, const std::map<std::string, std::s
   if (tops.size() > 1) {
     std::vector<std::string> list;
     for (const XmlElement* top : tops) list.push_back(top->value("name"));
-    findings.fault("E_TREE", *tops[1], owner_of(*tops[1]),
-                   "is a second root; expected one link without a parent, found " + quoted_list(list));
+    findings.fault(
+        "E_TREE", *tops[1], owner_of(*tops[1]),
+        "is a second root; expected one link without a parent, found " + quoted_list(list));
   }
   std::set<std::string> reported;
   for (const XmlElement* link : links) {

@@ -1,5 +1,5 @@
-// The numbers of a URDF: finite, as many as there should be, sizes positive, axes not zero, limits that leave a
-// motion. The parser behind takes most of these as they come.
+// The numbers of a URDF: finite, as many as there should be, sizes positive, axes not zero, limits
+// that leave a motion. The parser behind takes most of these as they come.
 #include <cmath>
 #include <map>
 
@@ -9,8 +9,8 @@
 namespace handey::kinematics {
 namespace {
 
-constexpr std::size_t kMostLinks = 1000;   // Choice: a robot with a hand has below 100
-constexpr double kMostRadians = 20.0;      // above, the file surely means degrees
+constexpr std::size_t kMostLinks = 1000;  // Choice: a robot with a hand has below 100
+constexpr double kMostRadians = 20.0;     // above, the file surely means degrees
 constexpr double kUnitTolerance = 1e-6;
 
 class ValueWalk {
@@ -55,7 +55,8 @@ class ValueWalk {
     const std::string* text = element.attribute(key);
     const std::string what = "<" + element.name + "> " + key;
     const std::string expected =
-        "; expected " + (count == 1 ? "a finite number" : std::to_string(count) + " finite numbers");
+        "; expected " +
+        (count == 1 ? "a finite number" : std::to_string(count) + " finite numbers");
     if (!text) {
       findings_.fault(code, element, owner, what + " is missing" + expected);
       return {};
@@ -160,14 +161,16 @@ class ValueWalk {
     const std::string owner = owner_of(joint), type = joint.value("type");
     origin(joint, owner);
     if (type == "floating" || type == "planar") {
-      findings_.fault("E_UNSUPPORTED", joint, owner,
-                      "the type '" + type + "' is not supported; move the robot by its cell instead");
+      findings_.fault(
+          "E_UNSUPPORTED", joint, owner,
+          "the type '" + type + "' is not supported; move the robot by its cell instead");
       return;
     }
     if (type != "revolute" && type != "continuous" && type != "prismatic" && type != "fixed") {
       findings_.fault("E_JOINT_TYPE", joint, owner,
-                      "the type '" + type + "' is unknown; known are 'revolute', 'continuous', "
-                      "'prismatic', 'fixed'");
+                      "the type '" + type +
+                          "' is unknown; known are 'revolute', 'continuous', "
+                          "'prismatic', 'fixed'");
       return;
     }
     if (const XmlElement* mimic = joint.child("mimic")) {
@@ -193,7 +196,8 @@ class ValueWalk {
     if (!std::isfinite(length) || length < kUnitTolerance) {
       findings_.fault("E_AXIS", *axis, owner, "the axis is zero; expected a direction");
     } else if (std::abs(length - 1.0) > kUnitTolerance) {
-      findings_.warn(*axis, owner, "the axis has length " + number_text(length) + "; taken as a unit");
+      findings_.warn(*axis, owner,
+                     "the axis has length " + number_text(length) + "; taken as a unit");
     }
   }
 
@@ -213,8 +217,9 @@ class ValueWalk {
       }
       const std::vector<double> value = numbers(*limit, key, 1, owner, "E_NUMBER");
       if (std::string(key) == "velocity" && !value.empty() && !(value[0] > 0.0)) {
-        findings_.fault("E_LIMIT", *limit, owner,
-                        "the velocity limit is " + number_text(value[0]) + "; expected more than 0");
+        findings_.fault(
+            "E_LIMIT", *limit, owner,
+            "the velocity limit is " + number_text(value[0]) + "; expected more than 0");
       }
     }
     range(*limit, type, owner);
@@ -229,7 +234,8 @@ class ValueWalk {
       findings_.fault("E_LIMIT", limit, owner, "<limit> has neither lower nor upper");
       return;
     }
-    if ((limit.attribute("lower") && lower.empty()) || (limit.attribute("upper") && upper.empty())) {
+    if ((limit.attribute("lower") && lower.empty()) ||
+        (limit.attribute("upper") && upper.empty())) {
       return;  // not numbers: reported
     }
     const double low = lower.empty() ? 0.0 : lower[0], high = upper.empty() ? 0.0 : upper[0];

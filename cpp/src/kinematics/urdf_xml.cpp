@@ -1,5 +1,5 @@
-// expat reads the file before any other parser sees it: it is robust against broken and hostile XML, and it
-// knows the line of every element. What passes here is well-formed.
+// expat reads the file before any other parser sees it: it is robust against broken and hostile
+// XML, and it knows the line of every element. What passes here is well-formed.
 #include "urdf_xml.hpp"
 
 #include <expat.h>
@@ -37,7 +37,8 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-/// Length of the well-formed UTF-8 sequence at `at` (no overlong forms, no surrogates), 0 if there is none.
+/// Length of the well-formed UTF-8 sequence at `at` (no overlong forms, no surrogates), 0 if there
+/// is none.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -66,8 +67,9 @@ void require_utf8(const std::string& text, const std::string& file) {
   while (at < text.size()) {
     const std::size_t length = utf8_length(text, at);
     if (length == 0) {
-      throw InvalidInput("E_ENCODING", file + ":" + std::to_string(line),
-                         "byte " + std::to_string(at) + " is not UTF-8; expected a UTF-8 file without NUL");
+      throw InvalidInput(
+          "E_ENCODING", file + ":" + std::to_string(line),
+          "byte " + std::to_string(at) + " is not UTF-8; expected a UTF-8 file without NUL");
     }
     if (text[at] == '\n') ++line;
     at += length;
@@ -117,9 +119,8 @@ void end_element(void* user, const XML_Char*) {
 void character_data(void* user, const XML_Char* text, int length) {
   Reader& reader = *static_cast<Reader*>(user);
   if (reader.open.empty()) return;
-  const bool blank = std::all_of(text, text + length, [](char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-  });
+  const bool blank = std::all_of(
+      text, text + length, [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; });
   if (!blank) reader.open.back()->has_text = true;
 }
 
@@ -132,7 +133,8 @@ void xml_declaration(void* user, const XML_Char*, const XML_Char* encoding, int)
   std::string name = encoding;
   for (char& c : name) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   if (name != "UTF-8" && name != "UTF8" && name != "US-ASCII" && name != "ASCII") {
-    static_cast<Reader*>(user)->stop("E_ENCODING", "declares the encoding '" + name + "'; expected UTF-8");
+    static_cast<Reader*>(user)->stop("E_ENCODING",
+                                     "declares the encoding '" + name + "'; expected UTF-8");
   }
 }
 
@@ -147,9 +149,9 @@ void parse(Reader& reader, const std::string& text, const std::string& file) {
   if (status == XML_STATUS_OK) return;
   const std::string place = file + ":" + std::to_string(XML_GetCurrentLineNumber(reader.parser));
   if (!reader.code.empty()) throw InvalidInput(reader.code, place, reader.message);
-  throw InvalidInput("E_XML", place,
-                     std::string("is not well-formed XML: ") +
-                         XML_ErrorString(XML_GetErrorCode(reader.parser)));
+  throw InvalidInput(
+      "E_XML", place,
+      std::string("is not well-formed XML: ") + XML_ErrorString(XML_GetErrorCode(reader.parser)));
 }
 
 }  // namespace

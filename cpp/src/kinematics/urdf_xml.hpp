@@ -1,5 +1,5 @@
-// An XML file as a tree of elements, each with its line. Only what a robot file needs: valid UTF-8, at most
-// 16 MiB, at most 64 levels, no DOCTYPE (and so no entities), regular files.
+// An XML file as a tree of elements, each with its line. Only what a robot file needs: valid UTF-8,
+// at most 16 MiB, at most 64 levels, no DOCTYPE (and so no entities), regular files.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,8 @@ struct XmlDocument {
   std::unique_ptr<XmlElement> root;
 };
 
-/// @throws InvalidInput (E_PATH, E_TOO_BIG, E_ENCODING, E_XML, E_DOCTYPE, E_DEPTH) with file name and line
+/// @throws InvalidInput (E_PATH, E_TOO_BIG, E_ENCODING, E_XML, E_DOCTYPE, E_DEPTH) with file name
+/// and line
 XmlDocument read_xml(const std::string& path);
 
 }  // namespace handey::kinematics

@@ -1,6 +1,6 @@
-// The robot as a tree of rigid bodies: its arm joints, its gripper, where every body is at a configuration.
-// Links joined by fixed joints are one body. Body 0 is the base (all that no joint moves).
-// Frames: R is the URDF's root link (the robot frame); H is the grasp frame (hand).
+// The robot as a tree of rigid bodies: its arm joints, its gripper, where every body is at a
+// configuration. Links joined by fixed joints are one body. Body 0 is the base (all that no joint
+// moves). Frames: R is the URDF's root link (the robot frame); H is the grasp frame (hand).
 #pragma once
 
 #include <Eigen/Core>
@@ -40,17 +40,20 @@ struct ArmJoint {
 struct RobotBody {
   std::string name;                ///< of its first link
   std::vector<std::string> links;  ///< all links that are this body
-  std::vector<Shape> shapes;       ///< collision geometry, in the body frame (the frame of its first link)
+  std::vector<Shape>
+      shapes;  ///< collision geometry, in the body frame (the frame of its first link)
 };
 
 /// A robot as URDF and robot file describe it. A value.
 struct Robot {
   std::string name;
-  std::vector<RobotBody> bodies;                  ///< bodies[0] is the base; parents come before children
-  std::vector<ArmJoint> joints;                   ///< serial, base to flange; a joint's parent is the child of the one before
+  std::vector<RobotBody> bodies;  ///< bodies[0] is the base; parents come before children
+  std::vector<ArmJoint>
+      joints;  ///< serial, base to flange; a joint's parent is the child of the one before
   Gripper gripper;
-  Eigen::VectorXd home;                           ///< [rad]
-  std::vector<std::pair<int, int>> ignored_pairs; ///< bodies never checked against each other, from the robot file
+  Eigen::VectorXd home;  ///< [rad]
+  std::vector<std::pair<int, int>>
+      ignored_pairs;  ///< bodies never checked against each other, from the robot file
 };
 
 /// Pose of every body in R.
@@ -63,7 +66,8 @@ void body_poses(const Robot& robot, const Configuration& configuration, std::vec
 /// Pose of the grasp frame in R: X_RH.
 Pose hand_pose(const Robot& robot, const Eigen::VectorXd& q);
 
-/// Empty if q is within the limits (tolerance 1e-9 rad), else what is wrong: "joint5 = 1.9 rad exceeds 1.745".
+/// Empty if q is within the limits (tolerance 1e-9 rad), else what is wrong: "joint5 = 1.9 rad
+/// exceeds 1.745".
 std::string limit_violation(const Robot& robot, const Eigen::VectorXd& q);
 
 }  // namespace handey
