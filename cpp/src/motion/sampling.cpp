@@ -105,6 +105,8 @@ class JointSpace : public ob::RealVectorStateSpace {
     }
     return std::sqrt(sum);
   }
+  // The default ones draw a hundred states to find their cell sizes; RRT-Connect projects nothing.
+  void registerProjections() override {}
 
  private:
   VectorXd weights_;

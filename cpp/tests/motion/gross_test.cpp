@@ -56,25 +56,26 @@ TEST(Gross, FoldsTheArmToPassAPost) {
   for (const Configuration& row : timed.configurations) EXPECT_TRUE(checker.is_free(row, 5e-5));
 }
 
-TEST(Gross, CarriesAPartClearOfTheObstacles) {
-  Cell cell = cell_with_post();
-  Body stick = wall("stick", {0.02, 0.3}, 0.0, 0.0);
+TEST(Gross, CarriesAPartClearOfWhatTheEmptyHandPasses) {
+  // The post stands beyond the finger tips, within reach of a stick that points out of the hand.
+  Cell cell = planar_cell({wall("post", {0.06, 0.06}, 0.95, 0.0)});
+  Body stick;
+  stick.name = "stick";
   stick.shapes = {Shape{Box{{0.02, 0.02, 0.30}}, Pose::Identity()}};
+  stick.X_WB = at(-2.0, 0.0);
   cell.parts = {stick};
-  const Cell empty_handed = cell.with_part_at(0, at(0.0, 2.0));
-  // Held crosswise, along the closing axis, 0.04 m in front of the fingers: 0.3 m wide in the
-  // plane.
-  const Cell holding =
-      cell.with_held(0, pose_from_xyz_rpy({0, 0, 0.06}, {1.5707963267948966, 0, 0}));
-  CollisionChecker checker = checker_of(holding);
-  const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()});
-  ASSERT_TRUE(result.found()) << result.reason;
-  expect_free(checker, result.path);
-  // Not by chance: the way found with an empty hand does not do.
-  CollisionChecker empty = checker_of(empty_handed);
-  const MotionResult without = plan_gross_motion(empty, below_post(), {above_post()});
-  ASSERT_TRUE(without.found());
-  EXPECT_FALSE(certify_path(checker, without.path).is_free());
+  const Configuration start = configuration(-1.0, 0, 0), goal = configuration(1.0, 0, 0);
+
+  CollisionChecker empty = checker_of(cell);
+  const MotionResult without = plan_gross_motion(empty, start, {goal});
+  ASSERT_TRUE(without.found()) << without.reason;
+  EXPECT_EQ(without.planner, "straight");
+
+  CollisionChecker holding = checker_of(cell.with_held(0, at(0.0, 0.0, 0.14)));
+  const MotionResult with = plan_gross_motion(holding, start, {goal});
+  ASSERT_TRUE(with.found()) << with.reason;
+  EXPECT_EQ(with.planner, "RRT-Connect");
+  expect_free(holding, with.path);
 }
 
 TEST(Gross, SaysWhatIsInTheWayWhenItFindsNoWay) {
