@@ -1,0 +1,242 @@
+"""What `handey plan`, `handey check` and `handey view` do, and with which exit status they end.
+
+A plan is checked by the independent replay before it is written; one that fails is not written.
+Nothing heavy is imported before it is needed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import queue
+import threading
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from handey.errors import Fault, InvalidInput
+from handey.terminal import complain, one_line, tell, warn
+
+if TYPE_CHECKING:
+    from handey.cell_file import CellFile
+    from handey.check import CheckReport
+    from handey.plan import Plan
+    from handey.planner import PlanResult
+
+__all__ = ["check_command", "plan_command", "view_command", "within"]
+
+OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3, 70, 124, 130
+Result = TypeVar("Result")
+
+
+class DeadlinePassedError(Exception):
+    """The time given on the command line is over."""
+
+
+def plan_command(options: argparse.Namespace) -> int:
+    """Plans, checks the plan, and only then writes it."""
+    from handey.output import require_writable
+
+    start = time.monotonic()
+    output = Path(options.output or Path(options.cell).with_suffix(".plan.json").name)
+    require_writable(output)
+    _keep_inputs([options.cell], output)
+    try:
+        cell, result, checked = within(options.deadline, lambda: _plan_and_check(options, start))
+    except DeadlinePassedError:
+        return _deadline_passed(options, start)
+    late = options.deadline is not None and time.monotonic() - start >= options.deadline
+    summary = _plan_summary(cell, result, checked)
+    if result.plan is None:
+        tell(
+            options,
+            summary,
+            [f"{cell.name}: no plan found ({result.report.verdict})", *_reasons(result)],
+        )
+        return DEADLINE if late else NO_PLAN
+    if not checked.ok:
+        tell(options, summary | {"verdict": "unknown"}, [])
+        complain("internal error: the plan found is not valid; nothing has been written")
+        for fault in checked.faults:
+            complain(str(fault))
+        return NO_PLAN
+    result.plan.save(output)
+    tell(
+        options,
+        summary | {"output": str(output)},
+        [*_plan_text(cell, result, checked), f"plan: {output}"],
+    )
+    return OK
+
+
+def _plan_and_check(
+    options: argparse.Namespace, start: float
+) -> tuple[CellFile, PlanResult, CheckReport]:
+    from handey.cell_file import load_cell
+
+    cell = load_cell(options.cell)
+    cell.require_plannable()
+    warn(options, cell.warnings)
+    from handey import planner
+
+    left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
+    if left is not None and left <= 0:
+        raise DeadlinePassedError
+    result = planner.plan(cell, planner.PlanOptions(seed=options.seed, deadline=left))
+    checked = None
+    if result.plan is not None:
+        from handey.check import check
+
+        checked = check(options.cell, result.plan)
+    return cell, result, checked
+
+
+def within(seconds: float | None, work: Callable[[], Result]) -> Result:
+    """The result of `work`, done in a thread so that a deadline and Ctrl-C end the wait at once.
+
+    Raises:
+        DeadlinePassedError: after `seconds`.
+        Exception: whatever `work` raises.
+    """
+    answers: queue.SimpleQueue[tuple[Result | None, BaseException | None]] = queue.SimpleQueue()
+
+    def answer() -> None:
+        try:
+            answers.put((work(), None))
+        except BaseException as error:
+            answers.put((None, error))
+
+    threading.Thread(target=answer, daemon=True, name="handey-plan").start()
+    try:
+        result, error = answers.get(timeout=seconds)
+    except queue.Empty:
+        raise DeadlinePassedError from None
+    if error is not None:
+        raise error
+    return result  # type: ignore[return-value]
+
+
+def _deadline_passed(options: argparse.Namespace, start: float) -> int:
+    summary = {
+        "verdict": "unknown",
+        "cpu_s": time.process_time(),
+        "wall_s": time.monotonic() - start,
+        "duration_s": None,
+        "regrasps": None,
+        "stages": {},
+        "reasons": [f"the deadline of {options.deadline:g} s passed"],
+    }
+    tell(options, summary, [])
+    complain(f"{options.cell}: the deadline of {options.deadline:g} s passed")
+    return DEADLINE
+
+
+def _plan_summary(
+    cell: CellFile, result: PlanResult, checked: CheckReport | None
+) -> dict[str, Any]:
+    report, plan = result.report, result.plan
+    summary = {
+        "verdict": report.verdict,
+        "cell": cell.name,
+        "cpu_s": report.cpu_s,
+        "wall_s": report.wall_s,
+        "duration_s": None if plan is None else plan.duration_s,
+        "regrasps": None if plan is None else report.regrasps,
+        "stages": dict(report.stages),
+        "steps": None if plan is None else len(plan.steps),
+        "least_clearance": None if checked is None else checked.least_clearance,
+        "reasons": list(report.reasons),
+        "warnings": list(cell.warnings),
+    }
+    return dict(report.as_dict()) | summary
+
+
+def _reasons(result: PlanResult) -> list[str]:
+    return [f"  {reason}" for reason in result.report.reasons]
+
+
+def _plan_text(cell: CellFile, result: PlanResult, checked: CheckReport) -> list[str]:
+    """The summary for people."""
+    plan, report = result.plan, result.report
+    assert plan is not None
+    lines = [f"{cell.name}: planned"]
+    if not plan.steps:
+        lines.append("  every goal is already met: nothing to do")
+    for index, goal in enumerate(cell.goals):
+        steps = [step for step in plan.steps if step.goal == index]
+        if steps:
+            lines.append(f"  goal {index}: {goal}")
+            widths = [
+                f"{step.opening[-1] * 1e3:.1f} mm" for step in steps if step.action == "grasp"
+            ]
+            lines.append(f"    grasp: jaws closed to {', then '.join(widths)}")
+            lines.append(
+                "    steps: "
+                + ", ".join(f"{step.action} {step.duration_s:.2f} s" for step in steps)
+            )
+    lines.append(
+        f"  motion: {plan.duration_s:.2f} s in {len(plan.steps)} steps, regrasps: {report.regrasps}"
+    )
+    stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report.stages.items())
+    lines.append(
+        f"  planning: {report.cpu_s:.2f} s CPU ({stages}), {report.wall_s:.2f} s on the clock"
+    )
+    if checked.least_clearance is not None and math.isfinite(checked.least_clearance):
+        lines.append(f"  least clearance: {checked.least_clearance * 1e3:.2f} mm")
+    return lines
+
+
+def check_command(options: argparse.Namespace) -> int:
+    """Replays a plan and tells each fault."""
+    from handey.plan import Plan
+
+    plan = Plan.load(options.plan)
+    from handey.check import check
+
+    checked = within(None, lambda: check(options.cell, plan))
+    faults = [one_line(str(fault)) for fault in checked.faults]
+    clearance = checked.least_clearance
+    summary = {"valid": checked.ok, "faults": faults, "least_clearance": clearance}
+    lines = [
+        f"{options.plan}: {'valid' if checked.ok else f'not valid, {len(faults)} faults'}",
+        *faults,
+    ]
+    if clearance is not None and math.isfinite(clearance) and checked.ok:
+        lines.append(f"  least clearance: {clearance * 1e3:.2f} mm")
+    tell(options, summary, lines)
+    return OK if checked.ok else NOT_VALID
+
+
+def view_command(options: argparse.Namespace) -> int:
+    """Writes a page that shows a cell, or plays a plan in it."""
+    from handey.output import require_writable
+
+    output = Path(options.output or Path(options.cell).with_suffix(".html").name)
+    require_writable(output)
+    _keep_inputs([options.cell, options.plan], output)
+    plan: Plan | None = None
+    if options.plan is not None:
+        from handey.plan import Plan as PlanFile
+
+        plan = PlanFile.load(options.plan)
+    from handey.cell_file import load_cell
+
+    cell = load_cell(options.cell)
+    warn(options, cell.warnings)
+    from handey.view import write_page
+
+    write_page(cell, plan, output)
+    if not options.quiet:
+        print(f"page: {output}")
+    return OK
+
+
+def _keep_inputs(inputs: Sequence[str | None], output: Path) -> None:
+    """The output must not replace what is read."""
+    for name in inputs:
+        if name is not None and os.path.realpath(name) == os.path.realpath(output):
+            raise InvalidInput(
+                Fault("E_OUTPUT", "", "is read; the output needs another name", str(output))
+            )
