@@ -1,0 +1,138 @@
+"""Robot, meshes and bodies of a cell file as one cell of the compiled core, ready to plan.
+
+The faults of the robot file, of the URDF and of all meshes are reported together; then, if there
+are none, what cannot be is refused (`handey.refusals`).
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from handey import _core
+from handey.body_entry import BodyEntry, Box, Cylinder, Mesh, ShapeEntry, Sphere
+from handey.cell_file import CellEntry, CellFile, RobotPlace
+from handey.errors import Fault, InvalidInput
+from handey.refusals import find_refusals, find_warnings
+from handey.robot_file import load_robot
+
+__all__ = ["assemble"]
+
+LIMIT_TOLERANCE = 1e-9  # of the format [rad, m]
+
+
+def assemble(entry: CellEntry) -> CellFile:
+    """The cell that the entries of a file describe.
+
+    Raises:
+        InvalidInput: with all faults of robot and meshes, or with all that cannot be.
+    """
+    faults: list[Fault] = []
+    warnings: list[str] = []
+    robot = _robot(entry.robot, faults, warnings)
+    bodies = {body.name: _body(body, faults, warnings) for body in (*entry.fixtures, *entry.parts)}
+    start = None if robot is None else _start(entry.robot, robot, faults)
+    if faults:
+        raise InvalidInput(faults)
+    cell = _core.Cell(
+        name=entry.name,
+        robot=robot,
+        X_WR=entry.robot.X_WR,
+        fixtures=[bodies[fixture.name] for fixture in entry.fixtures],
+        parts=[bodies[part.name] for part in entry.parts],
+        start=start,
+    )
+    model = _core.make_collision_model(cell)
+    faults = find_refusals(entry, cell, model)
+    if faults:
+        raise InvalidInput(faults)
+    warnings += find_warnings(cell)
+    file = Path(entry.document.file) if entry.document.file else None
+    return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry)
+
+
+def _robot(place: RobotPlace, faults: list[Fault], warnings: list[str]) -> _core.Robot | None:
+    try:
+        robot, said = load_robot(place.file)
+    except InvalidInput as error:
+        faults += error.faults
+        return None
+    warnings += said
+    return robot
+
+
+def _start(
+    place: RobotPlace, robot: _core.Robot, faults: list[Fault]
+) -> _core.Configuration | None:
+    """Where the robot starts, within its limits."""
+    file = place.field.document.file
+    q = np.array(robot.home if place.start is None else place.start, dtype=float)
+    found = len(faults)
+    if len(q) != len(robot.joints):
+        message = f"expected {len(robot.joints)} numbers, one for each arm joint, found {len(q)}"
+        faults.append(Fault("E_DOF", "robot.start", message, file))
+        return None
+    for index, (joint, value) in enumerate(zip(robot.joints, q, strict=True)):
+        low, high = joint.limit.lower, joint.limit.upper
+        if not low - LIMIT_TOLERANCE <= value <= high + LIMIT_TOLERANCE:
+            limits = f"{low:g} to {high:g} rad (tolerance {LIMIT_TOLERANCE:g})"
+            message = f"{joint.name} = {float(value)} rad lies outside its limits {limits}"
+            faults.append(Fault("E_LIMIT", f"robot.start[{index}]", message, file))
+    gripper = robot.gripper
+    opening = gripper.max_opening if place.start_opening is None else place.start_opening
+    low, high = gripper.min_opening, gripper.max_opening
+    if not low - LIMIT_TOLERANCE <= opening <= high + LIMIT_TOLERANCE:
+        message = f"expected an opening from {low:g} to {high:g} m, found {opening:g}"
+        faults.append(Fault("E_RANGE", "robot.start_opening", message, file))
+    return None if len(faults) > found else _core.Configuration(q=q, opening=opening)
+
+
+def _body(body: BodyEntry, faults: list[Fault], warnings: list[str]) -> _core.Body | None:
+    shapes = [_shape(body, shape, faults, warnings) for shape in body.shapes]
+    if any(shape is None for shape in shapes):
+        return None
+    return _core.Body(
+        name=body.name,
+        shapes=shapes,
+        X_WB=body.X_WB,
+        support=body.support,
+        friction=body.friction,
+        mass=body.mass,
+        density=body.density,
+        may_move=body.may_move,
+    )
+
+
+def _shape(
+    body: BodyEntry, shape: ShapeEntry, faults: list[Fault], warnings: list[str]
+) -> _core.Shape | None:
+    geometry = shape.geometry
+    if isinstance(geometry, Box):
+        return _core.Shape(geometry=_core.Box(geometry.size), X_BS=shape.X_BS)
+    if isinstance(geometry, Cylinder):
+        return _core.Shape(_core.Cylinder(geometry.radius, geometry.length), X_BS=shape.X_BS)
+    if isinstance(geometry, Sphere):
+        return _core.Shape(_core.Sphere(geometry.radius), X_BS=shape.X_BS)
+    try:
+        loaded = _load_mesh(geometry, body.is_part)
+    except InvalidInput as error:
+        faults += [_at_mesh(fault, geometry, shape) for fault in error.faults]
+        return None
+    warnings += [f"{shape.field}: {geometry.file}: {warning}" for warning in loaded.warnings]
+    mesh = _core.MeshShape(mesh=loaded.mesh, solid=loaded.surface.closed)
+    return _core.Shape(geometry=mesh, X_BS=shape.X_BS)
+
+
+def _load_mesh(mesh: Mesh, must_be_closed: bool) -> _core.LoadedMesh:
+    options = _core.MeshFileOptions(scale=np.full(3, mesh.scale), must_be_closed=must_be_closed)
+    return _core.load_mesh(os.fspath(mesh.file), options)
+
+
+def _at_mesh(fault: Fault, mesh: Mesh, shape: ShapeEntry) -> Fault:
+    """The fault of a mesh, told at the place of the cell file that names the mesh."""
+    file = os.fspath(mesh.file)
+    within = fault.place[len(file) :].lstrip(": ") if fault.place.startswith(file) else fault.place
+    message = ": ".join(part for part in (shape.field.value, within, fault.message) if part)
+    return Fault(fault.code, str(shape.field), message, shape.field.document.file)
