@@ -34,6 +34,7 @@ class StandInReport:
     wall_s: float = 0.6
     duration_s: float = 8.0
     regrasps: int = 0
+    deadline_passed: bool = False
     stages: dict = field(default_factory=lambda: {"grasp": 0.2, "approach": 0.3})
 
     def as_dict(self):
@@ -165,10 +166,13 @@ def test_the_deadline_ends_a_planner_that_does_not_look_at_the_clock(workshop, c
     assert os.listdir(tmp_path) == ["cell.yaml"]
 
 
-def test_a_planner_that_gives_up_at_the_deadline_ends_with_124(workshop):
-    workshop.plan, workshop.report = None, StandInReport(verdict="unknown")
-    workshop.before_planning = lambda: time.sleep(0.25)
-    assert cli.main(["plan", "cell.yaml", "--deadline", "0.2"]) == 124
+def test_a_planner_that_gives_up_at_the_deadline_tells_why(workshop, capsys):
+    workshop.plan = None
+    reasons = ["approach: 3 grasps tried"]
+    workshop.report = StandInReport(verdict="unknown", reasons=reasons, deadline_passed=True)
+    assert cli.main(["plan", "cell.yaml", "--deadline", "9"]) == 124
+    assert "approach: 3 grasps tried" in capsys.readouterr().out
+    assert 8.5 < workshop.options.deadline < 9
 
 
 @pytest.mark.parametrize(

@@ -123,9 +123,10 @@ def load_cell(path: str | os.PathLike[str]) -> CellFile:
     Raises:
         InvalidInput: with every fault of the first step that finds any.
     """
+    entry = read_cell(path)
     from handey.assembly import assemble
 
-    return assemble(read_cell(path))
+    return assemble(entry)
 
 
 def parse_cell(cell: Mapping[str, Any], base_folder: str | os.PathLike[str] = ".") -> CellFile:
@@ -138,9 +139,10 @@ def parse_cell(cell: Mapping[str, Any], base_folder: str | os.PathLike[str] = ".
     Raises:
         InvalidInput: as `load_cell`.
     """
+    entry = _read(Document("", Path(base_folder), _plain(cell)))
     from handey.assembly import assemble
 
-    return assemble(_read(Document("", Path(base_folder), _plain(cell))))
+    return assemble(entry)
 
 
 def _plain(value: Any) -> Any:

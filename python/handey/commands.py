@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["check_command", "plan_command", "view_command", "within"]
 
 OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3, 70, 124, 130
+TIME_TO_TELL = 0.25  # Choice: the planner stops this long before the deadline and tells why [s]
 Result = TypeVar("Result")
 
 
@@ -47,7 +48,6 @@ def plan_command(options: argparse.Namespace) -> int:
         cell, result, checked = within(options.deadline, lambda: _plan_and_check(options, start))
     except DeadlinePassedError:
         return _deadline_passed(options, start)
-    late = options.deadline is not None and time.monotonic() - start >= options.deadline
     summary = _plan_summary(cell, result, checked)
     if result.plan is None:
         tell(
@@ -55,7 +55,7 @@ def plan_command(options: argparse.Namespace) -> int:
             summary,
             [f"{cell.name}: no plan found ({result.report.verdict})", *_reasons(result)],
         )
-        return DEADLINE if late else NO_PLAN
+        return DEADLINE if result.report.deadline_passed else NO_PLAN
     if not checked.ok:
         tell(options, summary | {"verdict": "unknown"}, [])
         complain("internal error: the plan found is not valid; nothing has been written")
@@ -81,9 +81,12 @@ def _plan_and_check(
     warn(options, cell.warnings)
     from handey import planner
 
-    left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
-    if left is not None and left <= 0:
-        raise DeadlinePassedError
+    left = None
+    if options.deadline is not None:
+        left = options.deadline - (time.monotonic() - start)
+        left -= min(TIME_TO_TELL, 0.1 * left)
+        if left <= 0:
+            raise DeadlinePassedError
     result = planner.plan(cell, planner.PlanOptions(seed=options.seed, deadline=left))
     checked = None
     if result.plan is not None:
