@@ -1,0 +1,331 @@
+"""One grasp carried through: approach, grasp, depart, carry, deposit, release, withdraw, and home after the last goal.
+
+Given a grasp pose that is legal at both ends, is there a certified motion for every step? The motions near obstacles come first
+(the article's step 4 and the put-down), the gross motions (steps 5 and 6) last, because they cost most.
+Every motion that leaves here was certified edge by edge by the core, under the contacts that the step allows.
+Not guaranteed: a grasp given up here may still be feasible; the reason tells where it fell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from handey import _core
+from handey.report import StageClock
+
+__all__ = ["Carry", "DirectOptions", "Motion", "Placing", "Workspace", "carry_through", "find_reach"]
+
+# Choice: the pads are certified up to this far from the faces, each side; the last stretch is the contact itself [m].
+CLOSING_GAP = 3e-4
+
+
+@dataclass(frozen=True)
+class DirectOptions:
+    """Budgets of one attempt.
+
+    Attributes:
+        approach: options of the local planner.
+        retreat: options of lifts and withdrawals.
+        gross: options of the gross motions.
+        most_places: configurations at the destination that are tried for one grasp.
+    """
+
+    approach: _core.ApproachOptions = field(default_factory=_core.ApproachOptions)
+    retreat: _core.RetreatOptions = field(default_factory=_core.RetreatOptions)
+    gross: _core.GrossOptions = field(default_factory=_core.GrossOptions)
+    most_places: int = 4
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What stays the same while one goal is planned.
+
+    Attributes:
+        scene: the cell with the part at its origin and an empty hand, and where the part is to go.
+        solver: inverse kinematics of the arm.
+        current: where the arm is, and the opening.
+        home: configurations to return to after the goal; None to stay.
+        clock: CPU seconds by stage.
+    """
+
+    scene: _core.GraspScene
+    solver: _core.SphericalWristSolver
+    current: _core.Configuration
+    home: np.ndarray | None
+    clock: StageClock
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A certified polyline that serves one action of the plan."""
+
+    action: str
+    path: list[_core.Configuration]
+    held: bool = False
+
+
+@dataclass(frozen=True)
+class Placing:
+    """A certified way to put the part down and leave it."""
+
+    deposit: list[_core.Configuration]
+    withdraw: list[_core.Configuration]
+
+
+@dataclass
+class Carry:
+    """How far one grasp got.
+
+    Attributes:
+        stage: the last stage reached; "done" if all of it was planned.
+        reason: why it stopped.
+        motions: the whole of it when done.
+        X_HP: the part in the grasp frame, shape (4, 4).
+        end: where the arm is afterwards.
+        planners: which planner gave each gross motion.
+    """
+
+    stage: str
+    reason: str = ""
+    motions: list[Motion] = field(default_factory=list)
+    X_HP: np.ndarray = field(default_factory=lambda: np.eye(4))
+    grasp: _core.GraspPose | None = None
+    end: _core.Configuration | None = None
+    planners: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """A certified approach and departure for one grasp, with the ways to place it."""
+
+    grasp: _core.GraspPose
+    approach: list[_core.Configuration]
+    depart: list[_core.Configuration]
+    places: list[Placing]
+    X_HP: np.ndarray
+
+
+def _at(q: np.ndarray, opening: float) -> _core.Configuration:
+    return _core.Configuration(q=q, opening=opening)
+
+
+def find_reach(
+    work: Workspace,
+    pair: _core.RankedPair,
+    aim: _core.GraspPose,
+    q_pick: np.ndarray,
+    options: DirectOptions,
+) -> Reach | Carry:
+    """Plan all motions near obstacles for one grasp: approach, close, depart, deposit, release, withdraw.
+
+    Returns:
+        A `Reach`, or a `Carry` that says at which stage it fell.
+    """
+    scene = work.scene
+    with work.clock("approach"):
+        approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
+    if not approach.found():
+        return Carry("approach", approach.reason)
+    grasp, path = approach.grasp, list(approach.path)
+    q = path[-1].q
+    X_WP = scene.cell.parts[scene.part].X_WB
+    X_HP = np.linalg.inv(_core.hand_in_world(scene.cell, q)) @ X_WP
+
+    with work.clock("depart"):
+        standing = _core.CollisionChecker(scene.model, scene.cell)
+        closing = _core.certify_edge(
+            standing, path[-1], _at(q, grasp.width + 2 * CLOSING_GAP), options.approach.certificate
+        )
+        if not closing.is_free():
+            return Carry("approach", f"the closing fingers meet {closing.hit.b}")
+        depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, options)
+    if not depart.found:
+        return Carry("depart", depart.reason)
+
+    goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
+    places, reason = [], "no configuration at the destination"
+    for q_place in _nearest_first(work, grasp.q_place, q)[: options.most_places]:
+        with work.clock("deposit"):
+            deposit = _lift(work, goal_cell, _at(q_place, grasp.width), X_HP, options)
+        if not deposit.found:
+            reason = f"deposit: {deposit.reason}"
+            continue
+        withdraw, reason = _withdraw(work, goal_cell, pair, grasp, q_place, options)
+        if withdraw:
+            places.append(Placing(list(deposit.path)[::-1], withdraw))
+    if not places:
+        return Carry("deposit" if reason.startswith("deposit") else "withdraw", reason)
+    return Reach(grasp, path, list(depart.path), places, X_HP)
+
+
+def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
+    """Join a reach to where the arm is and to its destination by gross motions (steps 5 and 6), and home.
+
+    Returns:
+        A `Carry`, "done" or with the stage at which it fell.
+    """
+    scene, grasp = work.scene, reach.grasp
+    planners: dict[str, str] = {}
+    with work.clock("transit"):
+        checker = _core.CollisionChecker(scene.model, scene.cell)
+        transit, reason = _open_and_go(
+            checker, work.current, [reach.approach[0]], options, planners, "transit"
+        )
+    if not transit:
+        return Carry("transit", reason)
+
+    with work.clock("transfer"):
+        held = scene.cell.with_held(scene.part, reach.X_HP)
+        checker = _core.CollisionChecker(scene.model, held)
+        goals = [placing.deposit[0] for placing in reach.places]
+        transfer = _core.plan_gross_motion(checker, reach.depart[-1], goals, options.gross)
+    if not transfer.found():
+        return Carry("transfer", transfer.reason)
+    planners["transfer"] = transfer.planner
+    placing = reach.places[transfer.goal]
+
+    q_pick, q_place = reach.approach[-1].q, placing.deposit[-1].q
+    opened = placing.withdraw[0].opening
+    motions = [
+        Motion("transit", transit),
+        Motion("approach", reach.approach),
+        Motion("grasp", [_at(q_pick, grasp.opening), _at(q_pick, grasp.width)]),
+        Motion("depart", reach.depart, held=True),
+        Motion("transfer", list(transfer.path), held=True),
+        Motion("deposit", placing.deposit, held=True),
+        Motion("release", [_at(q_place, grasp.width), _at(q_place, opened)]),
+        Motion("withdraw", placing.withdraw),
+    ]
+    end = placing.withdraw[-1]
+    if work.home is not None:
+        with work.clock("home"):
+            goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
+            checker = _core.CollisionChecker(scene.model, goal_cell)
+            home = _core.plan_gross_motion(
+                checker, end, [_at(work.home, end.opening)], options.gross
+            )
+        if not home.found():
+            return Carry("home", home.reason)
+        planners["home"] = home.planner
+        motions.append(Motion("transit", list(home.path)))
+        end = home.path[-1]
+    motions = [m for m in motions if m.action not in ("transit", "transfer") or len(m.path) > 1]
+    return Carry("done", "", motions, reach.X_HP, grasp, end, planners)
+
+
+def _nearest_first(work: Workspace, solutions: list[np.ndarray], q: np.ndarray) -> list[np.ndarray]:
+    """Order configurations by the travel time of the slowest joint from q."""
+    velocity = np.array([joint.limit.velocity for joint in work.scene.cell.robot.joints])
+    return sorted(solutions, key=lambda other: float(np.max(np.abs(other - q) / velocity)))
+
+
+def _lift(
+    work: Workspace,
+    cell: _core.Cell,
+    start: _core.Configuration,
+    X_HP: np.ndarray,
+    options: DirectOptions,
+) -> _core.RetreatResult:
+    """Lift the part, held at `start`, off what it touches where it stands in `cell`; the longest of a few directions."""
+    scene = work.scene
+    touches = _core.touching_bodies(scene.model, cell, scene.part)
+    held = cell.with_held(scene.part, X_HP)
+    in_contact = _core.CollisionChecker(
+        scene.model, held, _core.Allowance(held_touches=touches)
+    )
+    clear = _core.CollisionChecker(scene.model, held)
+    back = -_core.hand_in_world(cell, start.q)[:3, 2]
+    best = None
+    for direction in _directions(back):
+        result = _core.plan_retreat(
+            in_contact, clear, work.solver, start, direction, options.retreat
+        )
+        if result.found and (best is None or result.travelled > best.travelled):
+            best = result
+        if result.found and result.travelled >= 0.99 * options.retreat.most:
+            break
+    return best if best is not None else result
+
+
+def _directions(back: np.ndarray) -> list[np.ndarray]:
+    """Straight up first, then up and back, then back along the hand."""
+    up = np.array([0.0, 0.0, 1.0])
+    slanted = [up + share * back for share in (0.3, 1.0)]
+    candidates = [up, *slanted, back]
+    unit = [d / np.linalg.norm(d) for d in candidates if np.linalg.norm(d) > 0.1]
+    return [d for i, d in enumerate(unit) if all(d @ other < 0.999 for other in unit[:i])]
+
+
+def _withdraw(
+    work: Workspace,
+    goal_cell: _core.Cell,
+    pair: _core.RankedPair,
+    grasp: _core.GraspPose,
+    q_place: np.ndarray,
+    options: DirectOptions,
+) -> tuple[list[_core.Configuration], str]:
+    """Open the fingers over the part at its destination and draw the hand back: straight, else by the local planner."""
+    scene = work.scene
+    with work.clock("withdraw"):
+        checker = _core.CollisionChecker(scene.model, goal_cell)
+        opened = _at(q_place, grasp.opening)
+        opening = _core.certify_edge(
+            checker,
+            _at(q_place, grasp.width + 2 * CLOSING_GAP),
+            opened,
+            options.approach.certificate,
+        )
+        if not opening.is_free():
+            return [], f"the opening fingers meet {opening.hit.b}"
+        hand = _core.hand_in_world(goal_cell, q_place)
+        back, reason = -hand[:3, 2], ""
+        for direction in [back, *(_turned(hand, angle) for angle in (0.35, -0.35, 0.8, -0.8))]:
+            result = _core.plan_retreat(
+                checker, checker, work.solver, opened, direction, options.retreat
+            )
+            if result.found:
+                return list(result.path), ""
+            reason = reason or result.reason
+        # The slide of the approach, planned at the destination and driven backwards.
+        there = _core.GraspScene(scene.model, goal_cell, scene.part, scene.X_WP_goal)
+        slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
+        if slide.found() and np.allclose(slide.path[-1].q, q_place, atol=1e-9):
+            return list(slide.path)[::-1], ""
+    return [], reason
+
+
+def _turned(hand: np.ndarray, angle: float) -> np.ndarray:
+    """The direction back along the hand, turned in the grasp plane."""
+    return -np.cos(angle) * hand[:3, 2] + np.sin(angle) * hand[:3, 0]
+
+
+def _open_and_go(
+    checker: _core.CollisionChecker,
+    start: _core.Configuration,
+    goals: list[_core.Configuration],
+    options: DirectOptions,
+    planners: dict[str, str],
+    name: str,
+) -> tuple[list[_core.Configuration], str]:
+    """Bring the fingers to the goal's opening, before the gross motion where there is room, else after it."""
+    wanted = goals[0].opening
+    certificate = options.approach.certificate
+    opened = _at(start.q, wanted)
+    if start.opening == wanted or _core.certify_edge(checker, start, opened, certificate).is_free():
+        result = _core.plan_gross_motion(checker, opened, goals, options.gross)
+        prefix = [] if start.opening == wanted else [start]
+        if result.found():
+            planners[name] = result.planner
+            return [*prefix, *result.path], ""
+        return [], result.reason
+    closed = [_at(goal.q, start.opening) for goal in goals]
+    result = _core.plan_gross_motion(checker, start, closed, options.gross)
+    if not result.found():
+        return [], result.reason
+    goal = goals[result.goal]
+    if not _core.certify_edge(checker, closed[result.goal], goal, certificate).is_free():
+        return [], "no room to open the fingers at either end"
+    planners[name] = result.planner
+    return [*result.path, goal], ""

@@ -1,0 +1,332 @@
+"""The seven steps of the article as one loop: what to try next, and when to stop.
+
+Steps 1 to 3 rank the grasps from the part's geometry with an eye on the destination, step 4 brings the hand in, steps 5 and 6
+are the gross motions; step 7, the regrasp, is not part of this version. Python decides what to try next; the compiled core
+answers whether it is possible, and how.
+Same input, version and seed: the same plan. Not guaranteed: completeness; the report says what was covered.
+Article: "Task-level planning of pick-and-place robot motions", Handey's planning steps.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from handey import _core
+from handey.cell_file import CellFile
+from handey.errors import Fault, InvalidInput
+from handey.pick_and_place import (
+    Carry,
+    DirectOptions,
+    Reach,
+    Workspace,
+    carry_through,
+    find_reach,
+)
+from handey.plan import Plan, Step
+from handey.report import Attempt, GoalReport, Report, StageClock
+from handey.task import Goal
+
+__all__ = ["PlanOptions", "PlanResult", "plan"]
+
+
+@dataclass(frozen=True)
+class PlanOptions:
+    """What bounds and steers planning.
+
+    Attributes:
+        seed: fixes every random choice.
+        deadline: seconds of wall-clock time after which planning stops between two attempts; None for no bound.
+        ranking: options of steps 1 to 3.
+        legality: options of the test of grasp poses at both ends.
+        direct: options and budgets of one attempt.
+        poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
+        sampling_rounds: iterations of the gross planner in each pass over the grasps.
+    """
+
+    seed: int = 0
+    deadline: float | None = None
+    ranking: _core.RankingOptions = field(default_factory=_core.RankingOptions)
+    legality: _core.LegalityOptions = field(default_factory=_core.LegalityOptions)
+    direct: DirectOptions = field(default_factory=DirectOptions)
+    poses_per_round: int = 4
+    sampling_rounds: tuple[int, ...] = (400, 4000)
+
+
+@dataclass(frozen=True)
+class PlanResult:
+    """A plan, or None, and the report that says why."""
+
+    plan: Plan | None
+    report: Report
+
+
+class _DeadlinePassed(Exception):
+    """Raised between two attempts; never leaves this module."""
+
+
+@dataclass
+class _Progress:
+    """The state of the world while the goals are planned one after another."""
+
+    cell: _core.Cell
+    current: _core.Configuration
+    steps: list[Step] = field(default_factory=list)
+
+
+def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
+    """Plan the task of a cell.
+
+    Args:
+        cell_file: the cell and its task, from `handey.load_cell`.
+        options: budgets and seed.
+
+    Returns:
+        The plan with its report; without a plan the report's `reasons` say what stood in the way.
+
+    Raises:
+        InvalidInput: if the cell has what this version cannot plan for.
+    """
+    options = options or PlanOptions()
+    _refuse_unsupported(cell_file)
+    begin_wall, begin_cpu = time.perf_counter(), time.process_time()
+    stop_at = None if options.deadline is None else begin_wall + options.deadline
+    clock = StageClock()
+    report = Report(goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.task)], seed=options.seed)
+    progress = _Progress(cell_file.cell, cell_file.cell.start)
+    with clock("model"):
+        model = _core.make_collision_model(cell_file.cell)
+        solver = _core.SphericalWristSolver(cell_file.cell.robot)
+    try:
+        reached = _plan_goals(cell_file, progress, model, solver, options, clock, report, stop_at)
+    except _DeadlinePassed:
+        reached, report.deadline_passed = False, True
+    report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
+    report.cpu_s = round(time.process_time() - begin_cpu, 6)
+    report.wall_s = round(time.perf_counter() - begin_wall, 6)
+    if not reached:
+        failed = [goal for goal in report.goals if goal.status == "failed"]
+        exhausted = bool(failed) and all(goal.exhausted for goal in failed)
+        report.verdict = "infeasible" if exhausted and not report.deadline_passed else "unknown"
+        return PlanResult(None, report)
+    report.verdict = "plan"
+    result = Plan(
+        cell=cell_file.name,
+        joints=[joint.name for joint in cell_file.cell.robot.joints],
+        steps=progress.steps,
+        placements=_placements(cell_file, progress.cell),
+    )
+    report.duration_s = round(sum(float(step.time[-1]) for step in result.steps), 6)
+    return PlanResult(replace(result, report=report.as_dict()), report)
+
+
+def _refuse_unsupported(cell_file: CellFile) -> None:
+    faults = []
+    if cell_file.depth_maps:
+        faults.append(
+            Fault("E_UNSUPPORTED", "depth_maps", "planning among depth maps is not offered by this version")
+        )
+    for index, goal in enumerate(cell_file.task):
+        if goal.at is None:
+            faults.append(
+                Fault(
+                    "E_UNSUPPORTED",
+                    f"task[{index}]",
+                    "goals 'on' and 'inside' are not planned by this version: give the pose with 'at'",
+                )
+            )
+    if not _core.SphericalWristSolver.is_supported(cell_file.cell.robot):
+        faults.append(
+            Fault(
+                "E_KINEMATICS",
+                "robot.file",
+                "planning needs an arm of six joints with parallel second and third axes and a spherical wrist",
+            )
+        )
+    if faults:
+        raise InvalidInput([replace(fault, file=str(cell_file.path or "")) for fault in faults])
+
+
+def _is_met(cell: _core.Cell, goal: Goal) -> bool:
+    """Is the part where the goal wants it, within half of the tolerance of a valid plan?"""
+    gap = np.linalg.inv(cell.parts[goal.part].X_WB) @ goal.at
+    angle = np.arccos(np.clip((np.trace(gap[:3, :3]) - 1) / 2, -1.0, 1.0))
+    return bool(np.linalg.norm(gap[:3, 3]) <= 5e-5 and angle <= 5e-4)
+
+
+def _plan_goals(
+    cell_file: CellFile,
+    progress: _Progress,
+    model: _core.CollisionModel,
+    solver: _core.SphericalWristSolver,
+    options: PlanOptions,
+    clock: StageClock,
+    report: Report,
+    stop_at: float | None,
+) -> bool:
+    """Plan the goals in their order; with `order: any`, the next one that can be planned."""
+    pending = list(range(len(cell_file.task)))
+    while pending:
+        done = None
+        for index in pending if cell_file.order == "any" else pending[:1]:
+            goal, goal_report = cell_file.task[index], report.goals[index]
+            if _is_met(progress.cell, goal):
+                goal_report.status = "met already"
+                done = index
+                break
+            is_last = all(i == index or _is_met(progress.cell, cell_file.task[i]) for i in pending)
+            home = cell_file.cell.start.q if is_last and cell_file.finish == "start" else None
+            scene = _core.GraspScene(model, progress.cell, goal.part, goal.at)
+            work = Workspace(scene, solver, progress.current, home, clock)
+            carry = _plan_goal(work, options, goal_report, stop_at)
+            if carry is not None:
+                _take_over(progress, cell_file, index, carry, clock)
+                done = index
+                break
+        if done is None:
+            return False
+        pending.remove(done)
+    return True
+
+
+def _plan_goal(
+    work: Workspace, options: PlanOptions, report: GoalReport, stop_at: float | None
+) -> Carry | None:
+    """Steps 1 to 6 for one goal: the first grasp that can be carried through."""
+    scene = work.scene
+    with work.clock("rank grasps"):
+        ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
+    _report_ranking(report, ranking)
+    reaches: list[tuple[str, Reach]] = []
+    direct = _with_budget(options, options.sampling_rounds[0])
+    for pair, aim in _grasps(work, ranking, options, report):
+        _respect(stop_at)
+        name = _describe(pair, aim)
+        for q_pick in aim.q_pick[:2]:
+            reach = find_reach(work, pair, aim, q_pick, direct)
+            if isinstance(reach, Carry):
+                report.attempts.append(Attempt(name, reach.stage, reach.reason))
+                continue
+            report.add("approached", 1)
+            reaches.append((name, reach))
+            carry = carry_through(work, reach, direct)
+            report.attempts.append(Attempt(name, carry.stage, carry.reason))
+            if carry.stage == "done":
+                return _planned(report, name, carry)
+    for iterations in options.sampling_rounds[1:]:
+        direct = _with_budget(options, iterations)
+        for name, reach in reaches:
+            _respect(stop_at)
+            carry = carry_through(work, reach, direct)
+            report.attempts.append(Attempt(name, carry.stage, carry.reason))
+            if carry.stage == "done":
+                return _planned(report, name, carry)
+    report.status = "failed"
+    return None
+
+
+def _grasps(
+    work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
+) -> Iterator[tuple[_core.RankedPair, _core.GraspPose]]:
+    """Grasp poses that are legal at both ends: a few of each face pair, best pair first, then the next few."""
+    legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
+    size, start = options.poses_per_round, 0
+    while any(poses is None or start < len(poses) for poses in legal):
+        for i, pair in enumerate(ranking.ranked):
+            if legal[i] is None:
+                with work.clock("legal grasps"):
+                    found = _core.find_legal_grasps(work.scene, work.solver, pair, options.legality)
+                legal[i] = list(found.poses)
+                report.add("legal grasp poses", len(found.poses))
+                if not found.poses:
+                    report.reasons.append(_illegal(pair, found))
+            for aim in (legal[i] or [])[start : start + size]:
+                yield pair, aim
+        start += size
+
+
+def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
+    name = f"faces {pair.pair.face_a}/{pair.pair.face_b}, {1e3 * pair.pair.width:.1f} mm"
+    return f"{name}: none of {legal.tried} hand poses is legal at both ends; {legal.worst_reason}"
+
+
+def _report_ranking(report: GoalReport, ranking: _core.Ranking) -> None:
+    # A goal may be tried again from another state of the cell: only the last try is told.
+    report.funnel, report.reasons, report.attempts = {}, [], []
+    spanned = len(ranking.ranked) + len(ranking.obstructed)
+    report.add("faces", ranking.faces)
+    report.add("face pairs", spanned + len(ranking.rejected))
+    report.add("spanned by the jaws", spanned)
+    report.add("unobstructed", len(ranking.ranked))
+    if not spanned and not ranking.rejected:
+        report.reasons.append("no two faces of the part are parallel and face away from each other")
+    report.reasons += [f"faces {r.face_a}/{r.face_b}: {r.reason}" for r in ranking.rejected]
+    for pair in ranking.obstructed:
+        name = f"faces {pair.pair.face_a}/{pair.pair.face_b}"
+        blocked = 100 * (1 - pair.share)
+        report.reasons.append(f"{name}: {blocked:.0f} % obstructed by {', '.join(pair.obstructing)}")
+    report.exhausted = spanned == 0
+
+
+def _describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
+    """The grasp in words; the hand's direction is told in the part's frame."""
+    z = aim.X_PH[:3, 2]
+    return (
+        f"faces {pair.pair.face_a}/{pair.pair.face_b}, {1e3 * aim.width:.1f} mm apart, "
+        f"hand along ({z[0]:+.2f}, {z[1]:+.2f}, {z[2]:+.2f}) of the part"
+    )
+
+
+def _with_budget(options: PlanOptions, iterations: int) -> DirectOptions:
+    gross = _core.GrossOptions(
+        sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
+        shortcut=_core.ShortcutOptions(seed=options.seed),
+    )
+    return replace(options.direct, gross=gross)
+
+
+def _planned(report: GoalReport, name: str, carry: Carry) -> Carry:
+    report.status, report.grasp, report.planners = "planned", name, carry.planners
+    return carry
+
+
+def _respect(stop_at: float | None) -> None:
+    if stop_at is not None and time.perf_counter() > stop_at:
+        raise _DeadlinePassed
+
+
+def _take_over(
+    progress: _Progress, cell_file: CellFile, index: int, carry: Carry, clock: StageClock
+) -> None:
+    """Time the motions of a carry, append them as steps, and bring the world to where it then is."""
+    goal = cell_file.task[index]
+    name = progress.cell.parts[goal.part].name
+    with clock("timing"):
+        for motion in carry.motions:
+            timed = _core.time_path(progress.cell.robot, motion.path)
+            progress.steps.append(
+                Step(
+                    action=motion.action,
+                    goal=index,
+                    part=name if motion.held else None,
+                    part_in_grasp_frame=carry.X_HP if motion.held else None,
+                    time=np.array(timed.time),
+                    positions=np.array([c.q for c in timed.configurations]),
+                    opening=np.array([c.opening for c in timed.configurations]),
+                )
+            )
+    assert carry.end is not None
+    progress.current = carry.end
+    progress.cell = progress.cell.with_part_at(goal.part, goal.at)
+
+
+def _placements(cell_file: CellFile, cell: _core.Cell) -> dict[str, np.ndarray]:
+    """Where each part that was moved stands in the end."""
+    moved = {}
+    for before, after in zip(cell_file.cell.parts, cell.parts, strict=True):
+        if not np.array_equal(before.X_WB, after.X_WB):
+            moved[after.name] = after.X_WB
+    return moved

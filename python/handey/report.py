@@ -1,0 +1,158 @@
+"""What was tried, how far it got, and how long each stage took.
+
+A planner answers with a plan or with a reason. The reason is collected here while planning: per goal the funnel of grasps
+(found, spanned by the jaws, unobstructed, legal at both ends, approached, connected) and for every attempt the stage at which it
+fell with the planner's own words, which name bodies and numbers.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+__all__ = ["Attempt", "GoalReport", "Report", "StageClock"]
+
+
+class StageClock:
+    """CPU seconds by stage, counted by `with clock("approach"):`; stages do not nest."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, stage: str) -> Iterator[None]:
+        """Count the time of the block for `stage`."""
+        begin = time.process_time()
+        try:
+            yield
+        finally:
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + time.process_time() - begin
+
+
+@dataclass
+class Attempt:
+    """One grasp that was tried.
+
+    Attributes:
+        grasp: which one: "faces 3/7, 40.0 mm, from above".
+        stage: the stage that it reached last: approach, depart, deposit, withdraw, transit, transfer, home, done.
+        reason: why it went no farther; empty when done.
+    """
+
+    grasp: str
+    stage: str
+    reason: str = ""
+
+
+@dataclass
+class GoalReport:
+    """How the planning of one goal went.
+
+    Attributes:
+        goal: index in the task.
+        text: the goal in words.
+        status: "planned", "met already", "failed" or "not tried".
+        funnel: counts by stage, in the order of the stages.
+        reasons: why grasps fell before they were tried, most frequent first.
+        attempts: the grasps that were tried, in order.
+        grasp: the grasp chosen, in words; empty without one.
+        planners: which planner gave each gross motion.
+        exhausted: no grasp of the kinds that handey knows is left untried.
+    """
+
+    goal: int
+    text: str
+    status: str = "not tried"
+    funnel: dict[str, int] = field(default_factory=dict)
+    reasons: list[str] = field(default_factory=list)
+    attempts: list[Attempt] = field(default_factory=list)
+    grasp: str = ""
+    planners: dict[str, str] = field(default_factory=dict)
+    exhausted: bool = False
+
+    def add(self, stage: str, count: int) -> None:
+        """Add to a count of the funnel."""
+        self.funnel[stage] = self.funnel.get(stage, 0) + count
+
+    def summary(self, most: int = 6) -> list[str]:
+        """Lines for people: the funnel, then the commonest reasons."""
+        lines = [f"goal {self.goal} ({self.text}): {self.status}"]
+        if self.funnel:
+            lines.append("  " + ", ".join(f"{count} {stage}" for stage, count in self.funnel.items()))
+        lines += [f"  {reason}" for reason in self.reasons[:most]]
+        if self.status == "failed":
+            counted = Counter((a.stage, a.reason) for a in self.attempts if a.stage != "done")
+            for (stage, reason), count in counted.most_common(most):
+                times = f" ({count} grasps)" if count > 1 else ""
+                lines.append(f"  {stage}: {reason}{times}")
+        return lines
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as JSON values."""
+        return {
+            "goal": self.goal,
+            "text": self.text,
+            "status": self.status,
+            "funnel": self.funnel,
+            "reasons": self.reasons,
+            "grasp": self.grasp,
+            "planners": self.planners,
+            "attempts": [vars(attempt) for attempt in self.attempts],
+        }
+
+
+@dataclass
+class Report:
+    """How the planning of a task went.
+
+    Attributes:
+        verdict: "plan"; "infeasible" where the grasps are exhausted; "unknown" where a budget ran out.
+        goals: one report per goal of the task.
+        stages: CPU seconds by stage.
+        cpu_s: CPU seconds of planning, without reading files and without the check.
+        wall_s: the same by the wall clock.
+        duration_s: of the planned motion; 0 without a plan.
+        regrasps: times that a part is put down and taken again.
+        deadline_passed: planning stopped because the deadline had passed.
+        seed: fixes every random choice.
+    """
+
+    verdict: str = "unknown"
+    goals: list[GoalReport] = field(default_factory=list)
+    stages: dict[str, float] = field(default_factory=dict)
+    cpu_s: float = 0.0
+    wall_s: float = 0.0
+    duration_s: float = 0.0
+    regrasps: int = 0
+    deadline_passed: bool = False
+    seed: int = 0
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why there is no plan, in lines for people; empty with a plan."""
+        if self.verdict == "plan":
+            return []
+        lines = ["the deadline passed"] if self.deadline_passed else []
+        for goal in self.goals:
+            if goal.status == "failed":
+                lines += goal.summary()
+        return lines
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as JSON values."""
+        return {
+            "verdict": self.verdict,
+            "cpu_s": self.cpu_s,
+            "wall_s": self.wall_s,
+            "duration_s": self.duration_s,
+            "regrasps": self.regrasps,
+            "stages": self.stages,
+            "seed": self.seed,
+            "deadline_passed": self.deadline_passed,
+            "goals": [goal.as_dict() for goal in self.goals],
+            "reasons": self.reasons,
+        }
