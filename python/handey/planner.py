@@ -28,7 +28,7 @@ from handey.pick_and_place import (
 )
 from handey.plan import Plan, Step
 from handey.report import Attempt, GoalReport, Report, StageClock
-from handey.task import Goal
+from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 
@@ -95,7 +95,7 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
     begin_wall, begin_cpu = time.perf_counter(), time.process_time()
     stop_at = None if options.deadline is None else begin_wall + options.deadline
     clock = StageClock()
-    report = Report(goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.task)], seed=options.seed)
+    report = Report(goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.goals)], seed=options.seed)
     progress = _Progress(cell_file.cell, cell_file.cell.start)
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell)
@@ -129,8 +129,8 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
         faults.append(
             Fault("E_UNSUPPORTED", "depth_maps", "planning among depth maps is not offered by this version")
         )
-    for index, goal in enumerate(cell_file.task):
-        if goal.at is None:
+    for index, goal in enumerate(cell_file.goals):
+        if not isinstance(goal, PlaceAt):
             faults.append(
                 Fault(
                     "E_UNSUPPORTED",
@@ -147,12 +147,16 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
             )
         )
     if faults:
-        raise InvalidInput([replace(fault, file=str(cell_file.path or "")) for fault in faults])
+        raise InvalidInput([replace(fault, file=str(cell_file.file or "")) for fault in faults])
 
 
-def _is_met(cell: _core.Cell, goal: Goal) -> bool:
+def _poses(cell_file: CellFile) -> list[PlaceAt]:
+    return [goal for goal in cell_file.goals if isinstance(goal, PlaceAt)]
+
+
+def _is_met(cell: _core.Cell, goal: PlaceAt) -> bool:
     """Is the part where the goal wants it, within half of the tolerance of a valid plan?"""
-    gap = np.linalg.inv(cell.parts[goal.part].X_WB) @ goal.at
+    gap = np.linalg.inv(cell.parts[cell.part_index(goal.part)].X_WB) @ goal.X_WP
     angle = np.arccos(np.clip((np.trace(gap[:3, :3]) - 1) / 2, -1.0, 1.0))
     return bool(np.linalg.norm(gap[:3, 3]) <= 5e-5 and angle <= 5e-4)
 
@@ -168,22 +172,24 @@ def _plan_goals(
     stop_at: float | None,
 ) -> bool:
     """Plan the goals in their order; with `order: any`, the next one that can be planned."""
-    pending = list(range(len(cell_file.task)))
+    task, goals = cell_file.task, _poses(cell_file)
+    pending = list(range(len(goals)))
     while pending:
         done = None
-        for index in pending if cell_file.order == "any" else pending[:1]:
-            goal, goal_report = cell_file.task[index], report.goals[index]
+        for index in pending if task.any_order else pending[:1]:
+            goal, goal_report = goals[index], report.goals[index]
             if _is_met(progress.cell, goal):
                 goal_report.status = "met already"
                 done = index
                 break
-            is_last = all(i == index or _is_met(progress.cell, cell_file.task[i]) for i in pending)
-            home = cell_file.cell.start.q if is_last and cell_file.finish == "start" else None
-            scene = _core.GraspScene(model, progress.cell, goal.part, goal.at)
+            is_last = all(i == index or _is_met(progress.cell, goals[i]) for i in pending)
+            home = cell_file.cell.start.q if is_last and task.return_to_start else None
+            part = progress.cell.part_index(goal.part)
+            scene = _core.GraspScene(model, progress.cell, part, goal.X_WP)
             work = Workspace(scene, solver, progress.current, home, clock)
             carry = _plan_goal(work, options, goal_report, stop_at)
             if carry is not None:
-                _take_over(progress, cell_file, index, carry, clock)
+                _take_over(progress, goal, index, carry, clock)
                 done = index
                 break
         if done is None:
@@ -299,11 +305,9 @@ def _respect(stop_at: float | None) -> None:
 
 
 def _take_over(
-    progress: _Progress, cell_file: CellFile, index: int, carry: Carry, clock: StageClock
+    progress: _Progress, goal: PlaceAt, index: int, carry: Carry, clock: StageClock
 ) -> None:
     """Time the motions of a carry, append them as steps, and bring the world to where it then is."""
-    goal = cell_file.task[index]
-    name = progress.cell.parts[goal.part].name
     with clock("timing"):
         for motion in carry.motions:
             timed = _core.time_path(progress.cell.robot, motion.path)
@@ -311,7 +315,7 @@ def _take_over(
                 Step(
                     action=motion.action,
                     goal=index,
-                    part=name if motion.held else None,
+                    part=goal.part if motion.held else None,
                     part_in_grasp_frame=carry.X_HP if motion.held else None,
                     time=np.array(timed.time),
                     positions=np.array([c.q for c in timed.configurations]),
@@ -320,7 +324,7 @@ def _take_over(
             )
     assert carry.end is not None
     progress.current = carry.end
-    progress.cell = progress.cell.with_part_at(goal.part, goal.at)
+    progress.cell = progress.cell.with_part_at(progress.cell.part_index(goal.part), goal.X_WP)
 
 
 def _placements(cell_file: CellFile, cell: _core.Cell) -> dict[str, np.ndarray]:
