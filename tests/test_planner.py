@@ -1,0 +1,139 @@
+"""The whole path: every cell of models/cells is planned and checked, or refused with its reason."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import random_cells
+
+import handey
+from handey import _core
+from handey.planner import PlanOptions
+
+CELLS = Path(__file__).resolve().parent.parent / "models" / "cells"
+ALL = sorted(CELLS.glob("*.yaml"))
+IMPOSSIBLE = [path for path in ALL if path.stem.startswith("impossible_")]
+BAD = [path for path in ALL if path.stem.startswith("bad_")]
+POSSIBLE = [path for path in ALL if path not in IMPOSSIBLE and path not in BAD]
+
+
+def name(path: Path) -> str:
+    return path.stem
+
+
+def handey_command(*arguments: object) -> subprocess.CompletedProcess[str]:
+    code = "import sys; from handey.cli import main; sys.exit(main())"
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=os.environ, check=False)
+
+
+def test_there_are_cells_of_each_kind() -> None:
+    assert len(POSSIBLE) >= 10
+    assert len(IMPOSSIBLE) >= 3
+    assert len(BAD) >= 3
+
+
+@pytest.mark.parametrize("path", POSSIBLE, ids=name)
+def test_cell_is_planned_and_the_plan_is_valid(path: Path, tmp_path: Path) -> None:
+    result = handey.plan(handey.load_cell(path))
+    assert result.plan is not None, "\n".join(result.report.reasons)
+    out = tmp_path / "plan.json"
+    result.plan.save(out)
+    checked = handey.check(path, out)
+    assert checked.ok, "\n".join(map(str, checked.faults))
+
+
+@pytest.mark.parametrize("path", IMPOSSIBLE, ids=name)
+def test_impossible_cell_gets_a_reason_and_no_plan(path: Path) -> None:
+    result = handey.plan(handey.load_cell(path))
+    assert result.plan is None
+    assert result.report.verdict in ("infeasible", "unknown")
+    assert result.report.reasons
+
+
+@pytest.mark.parametrize("path", BAD, ids=name)
+def test_bad_cell_is_refused(path: Path) -> None:
+    with pytest.raises(handey.InvalidInput) as caught:
+        handey.load_cell(path)
+    assert all(fault.place and fault.message for fault in caught.value.faults)
+
+
+@pytest.mark.parametrize(
+    ("cell", "words"),
+    [
+        ("impossible_tetrahedron", ["no two faces"]),
+        ("impossible_too_wide", ["120.0 mm", "100.0 mm"]),
+        ("impossible_out_of_reach", ["reach", "destination"]),
+        ("impossible_closed_box", ["box"]),
+    ],
+)
+def test_the_reason_names_what_and_where(cell: str, words: list[str]) -> None:
+    run = handey_command("plan", CELLS / f"{cell}.yaml", "-o", os.devnull)
+    assert run.returncode == 3
+    for word in words:
+        assert word in run.stdout + run.stderr
+
+
+def test_a_goal_in_collision_is_bad_input_with_names_and_depth(tmp_path: Path) -> None:
+    out = tmp_path / "plan.json"
+    run = handey_command("plan", CELLS / "bad_goal_in_collision.yaml", "-o", out)
+    assert run.returncode == 2
+    assert "block" in run.stderr and "wall" in run.stderr and "mm" in run.stderr
+    assert not out.exists()
+
+
+def test_the_same_seed_gives_the_same_bytes(tmp_path: Path) -> None:
+    texts = []
+    for index in range(2):
+        result = handey.plan(handey.load_cell(CELLS / "demo.yaml"), PlanOptions(seed=7))
+        assert result.plan is not None
+        out = tmp_path / f"{index}.json"
+        dataclasses.replace(result.plan, report={}).save(out)
+        texts.append(out.read_bytes())
+    assert texts[0] == texts[1]
+
+
+def test_a_goal_that_is_met_already_needs_no_step() -> None:
+    result = handey.plan(handey.load_cell(CELLS / "already_met.yaml"))
+    assert result.plan is not None
+    assert result.plan.steps == [] or list(result.plan.steps) == []
+
+
+def test_the_best_grasp_at_the_origin_alone_fails_at_the_destination_of_figure_4() -> None:
+    cell_file = handey.load_cell(CELLS / "figure_4.yaml")
+    cell, goal = cell_file.cell, cell_file.goals[0]
+    part = cell.part_index(goal.part)
+    origin_only = _core.RankingOptions(use_destination=False)
+    narrow = _core.rank_grasps(cell, part, goal.X_WP, origin_only).ranked[0]
+    wise = _core.rank_grasps(cell, part, goal.X_WP).ranked[0]
+    assert (narrow.pair.face_a, narrow.pair.face_b) != (wise.pair.face_a, wise.pair.face_b)
+    scene = _core.GraspScene(_core.make_collision_model(cell), cell, part, goal.X_WP)
+    solver = _core.SphericalWristSolver(cell.robot)
+    fallen = _core.find_legal_grasps(scene, solver, narrow)
+    assert not fallen.poses
+    assert "destination" in fallen.worst_reason
+    assert _core.find_legal_grasps(scene, solver, wise).poses
+
+
+def test_the_summary_is_one_json_object(tmp_path: Path) -> None:
+    out = tmp_path / "plan.json"
+    run = handey_command("plan", CELLS / "open_table.yaml", "-o", out, "--json")
+    assert run.returncode == 0
+    summary = json.loads(run.stdout)
+    assert summary["verdict"] == "plan"
+    assert summary["duration_s"] > 0 and summary["cpu_s"] > 0 and summary["regrasps"] == 0
+    assert sum(summary["stages"].values()) <= summary["cpu_s"] * 1.01
+
+
+def test_random_direct_cells_are_planned_validly_and_repeatably(tmp_path: Path) -> None:
+    cells = random_cells.direct_cells(seed=3, count=12, parts=random_cells.own_parts(), folder=tmp_path)
+    tally = random_cells.run(cells)
+    assert tally.tried == 12
+    assert tally.valid == tally.planned == tally.repeated
+    assert tally.planned >= 11, "\n".join(tally.failed)
