@@ -1,0 +1,112 @@
+"""Task-level planning of pick-and-place robot motions: from a task to a checked program.
+
+    import handey
+
+    cell = handey.load_cell("cell.yaml")
+    result = handey.plan(cell)
+    if result.plan:
+        result.plan.save("cell.plan.json")
+        assert handey.check("cell.yaml", result.plan).ok
+    else:
+        print(result.report.reasons)
+
+Metres, radians, seconds, kilograms; poses are 4 x 4 arrays. Nothing heavy is imported before it is
+used.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from handey.errors import Fault, HandeyError, InvalidInput
+
+if TYPE_CHECKING:
+    from handey.cell_file import CellFile, load_cell, parse_cell
+    from handey.check import CheckReport
+    from handey.plan import Plan, Step
+    from handey.planner import PlanOptions, PlanResult
+
+__all__ = [
+    "CellFile",
+    "CheckReport",
+    "Fault",
+    "HandeyError",
+    "InvalidInput",
+    "Plan",
+    "PlanOptions",
+    "PlanResult",
+    "Step",
+    "check",
+    "load_cell",
+    "parse_cell",
+    "plan",
+]
+
+_HOMES = {
+    "CellFile": "cell_file",
+    "CheckReport": "check",
+    "Plan": "plan",
+    "PlanOptions": "planner",
+    "PlanResult": "planner",
+    "Step": "plan",
+    "load_cell": "cell_file",
+    "parse_cell": "cell_file",
+    "__version__": "_core",
+}
+
+
+def plan(cell: CellFile | str | os.PathLike[str], options: PlanOptions | None = None) -> PlanResult:
+    """Plans the task of a cell.
+
+    Args:
+        cell: from `load_cell`, or the path of a cell file.
+        options: budgets and seed; see `PlanOptions`.
+
+    Returns:
+        The plan and its report, or no plan and the reasons.
+
+    Raises:
+        InvalidInput: if the cell file is wrong, or has what this version cannot plan for.
+    """
+    from handey import cell_file, planner
+
+    loaded = cell if isinstance(cell, cell_file.CellFile) else cell_file.load_cell(cell)
+    return planner.plan(loaded, options)
+
+
+def check(cell: str | os.PathLike[str], plan: Plan) -> CheckReport:
+    """Replays a plan in its cell with an engine of its own and checks every clause of validity.
+
+    Args:
+        cell: path of the cell file.
+        plan: from `plan` or `Plan.load`.
+
+    Raises:
+        InvalidInput: if the cell file is wrong.
+    """
+    return importlib.import_module("handey.check").check(cell, plan)  # type: ignore[no-any-return]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'handey' has no attribute '{name}'")
+    return getattr(importlib.import_module(f"handey.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})
+
+
+class _Package(ModuleType):
+    """The functions `plan` and `check` keep their names when the modules of these names load."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in ("plan", "check") and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

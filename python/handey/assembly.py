@@ -126,8 +126,7 @@ def _shape(
 
 
 def _load_mesh(mesh: Mesh, must_be_closed: bool) -> _core.LoadedMesh:
-    options = _core.MeshFileOptions(scale=np.full(3, mesh.scale), must_be_closed=must_be_closed)
-    return _core.load_mesh(os.fspath(mesh.file), options)
+    return _core.load_mesh(mesh.file, scale=mesh.scale, must_be_closed=must_be_closed)
 
 
 def _at_mesh(fault: Fault, mesh: Mesh, shape: ShapeEntry) -> Fault:
