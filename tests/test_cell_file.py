@@ -213,7 +213,7 @@ def test_depth_maps_are_read_but_not_planned_with(tmp_path):
     heap = {"heights": str(tmp_path / "heap.npy"), "cell": 0.01}
     loaded = parsed(depth_maps={"heap": heap})
     assert loaded.depth_maps[0].shape == (4, 4)
-    with pytest.raises(InvalidInput, match="depth_maps: .*heap"):
+    with pytest.raises(InvalidInput, match=r"depth_maps: .*heap"):
         loaded.require_plannable()
     parsed().require_plannable()
 

@@ -8,6 +8,7 @@ look at the URDF at all.
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -126,12 +127,12 @@ def _in_file(fault: Fault, urdf: Path) -> Fault:
     """The fault with the URDF as its file, which the core names at the start of the place."""
     if fault.file:
         return fault
+    place = fault.place
     for name in (os.fspath(urdf), urdf.name):
-        if fault.place.startswith(name):
-            return Fault(
-                fault.code, fault.place[len(name) :].lstrip(": "), fault.message, os.fspath(urdf)
-            )
-    return Fault(fault.code, fault.place, fault.message, os.fspath(urdf))
+        if place.startswith(name):
+            place = re.sub(r"^(\d+)", r"line \1", place[len(name) :].lstrip(": "))
+            break
+    return Fault(fault.code, place, fault.message, os.fspath(urdf))
 
 
 def _distinct(field: Field, what: str) -> tuple[str, ...] | None:
