@@ -42,6 +42,16 @@ class StandInReport:
 
 
 @dataclass
+class StandInCheck:
+    ok: bool = True
+    faults: list = field(default_factory=list)
+    least_clearance: float = 0.0031
+
+    def to_json(self):
+        return {"least_clearance": self.least_clearance, "faults": self.faults}
+
+
+@dataclass
 class StandInCell:
     name: str = "test"
     goals: tuple = (PlaceOn("block", "table"),)
@@ -69,7 +79,7 @@ def workshop(tmp_path, monkeypatch):
         cell=StandInCell(),
         plan=some_plan(),
         report=StandInReport(),
-        checked=types.SimpleNamespace(ok=True, faults=[], least_clearance=0.0031),
+        checked=StandInCheck(),
         options=None,
         before_planning=lambda: None,
         pages=[],

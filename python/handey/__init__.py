@@ -17,8 +17,10 @@ used.
 from __future__ import annotations
 
 import importlib
+import json
 import os
 import sys
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -78,17 +80,22 @@ def plan(cell: CellFile | str | os.PathLike[str], options: PlanOptions | None = 
     return planner.plan(loaded, options)
 
 
-def check(cell: str | os.PathLike[str], plan: Plan) -> CheckReport:
+def check(cell: str | os.PathLike[str], plan: Plan | str | os.PathLike[str]) -> CheckReport:
     """Replays a plan in its cell with an engine of its own and checks every clause of validity.
 
     Args:
         cell: path of the cell file.
-        plan: from `plan` or `Plan.load`.
+        plan: from `plan`, or the path of a plan file.
 
     Raises:
-        InvalidInput: if the cell file is wrong.
+        InvalidInput: if the cell file is wrong, or the plan file is no JSON.
     """
-    return importlib.import_module("handey.check").check(cell, plan)  # type: ignore[no-any-return]
+    from handey.plan import Plan
+
+    replay = importlib.import_module("handey.check")
+    # The replay is given the content of the plan file and nothing else: it shares no code.
+    content = json.loads(plan.to_json()) if isinstance(plan, Plan) else Path(plan)
+    return replay.check(Path(cell), content)  # type: ignore[no-any-return]
 
 
 def __getattr__(name: str) -> Any:

@@ -91,8 +91,8 @@ class BodyEntry:
 
 def read_body(name: str, field: Field, is_part: bool) -> BodyEntry | None:
     """Reads one fixture or part; None and faults if it is wrong."""
-    optional = [*_KINDS, "scale", "shapes", "pose", "support"]
-    optional += ["mass", "density", "friction", "may_move"] if is_part else []
+    optional = [*_KINDS, "scale", "shapes", "pose", "support", "mass", "density"]
+    optional += ["friction", "may_move"] if is_part else []
     entries = field.mapping(optional=optional)
     if entries is None:
         return None
@@ -105,8 +105,6 @@ def read_body(name: str, field: Field, is_part: bool) -> BodyEntry | None:
     )
     mass = entries["mass"].number(above=0.0) if "mass" in entries else None
     density = entries["density"].number(above=0.0) if "density" in entries else None
-    if "mass" in entries and "density" in entries:
-        field.fault("E_TYPE", "has both mass and density; expected at most one of them")
     if len(field.document.faults) > faults_before or X_WB is None or friction is None:
         return None
     return BodyEntry(

@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import handey
 from handey.errors import Fault, InvalidInput
 from handey.terminal import complain, one_line, tell, warn
 
@@ -90,9 +91,7 @@ def _plan_and_check(
     result = planner.plan(cell, planner.PlanOptions(seed=options.seed, deadline=left))
     checked = None
     if result.plan is not None:
-        from handey.check import check
-
-        checked = check(options.cell, result.plan)
+        checked = handey.check(options.cell, result.plan)
     return cell, result, checked
 
 
@@ -195,13 +194,11 @@ def check_command(options: argparse.Namespace) -> int:
     """Replays a plan and tells each fault."""
     from handey.plan import Plan
 
-    plan = Plan.load(options.plan)
-    from handey.check import check
-
-    checked = within(None, lambda: check(options.cell, plan))
+    Plan.load(options.plan)  # a file that is no plan is bad input, not a plan that is not valid
+    checked = within(None, lambda: handey.check(options.cell, options.plan))
     faults = [one_line(str(fault)) for fault in checked.faults]
     clearance = checked.least_clearance
-    summary = {"valid": checked.ok, "faults": faults, "least_clearance": clearance}
+    summary = checked.to_json() | {"valid": checked.ok}
     lines = [
         f"{options.plan}: {'valid' if checked.ok else f'not valid, {len(faults)} faults'}",
         *faults,

@@ -159,13 +159,11 @@ def _per_joint(
 
 
 def _read_gripper(field: Field) -> GripperEntry | None:
-    entries = field.mapping(
-        required=("link", "fingers", "opening", "pad"), optional=("grasp_frame",)
-    )
+    entries = field.mapping(required=("link", "grasp_frame", "fingers", "opening", "pad"))
     if entries is None:
         return None
     link = entries["link"].text() if "link" in entries else None
-    X_LH = read_pose(entries["grasp_frame"]) if "grasp_frame" in entries else np.eye(4)
+    X_LH = read_pose(entries["grasp_frame"]) if "grasp_frame" in entries else None
     fingers = entries["fingers"].texts(2) if "fingers" in entries else None
     if fingers and fingers[0] == fingers[1]:
         entries["fingers"].fault(
