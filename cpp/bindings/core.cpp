@@ -26,4 +26,5 @@ PYBIND11_MODULE(_core, m) {
   py::register_exception_translator(&translate_invalid_input);
   using namespace handey::bindings;
   // Floors, lowest first.
+  bind_geometry(m);
 }
