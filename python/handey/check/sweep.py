@@ -1,0 +1,290 @@
+"""Do two bodies keep apart during a motion? A proof in continuous time, not a sample.
+
+Between two samples no point of one body moves further, seen from the other, than the sum over the joints
+between them of |dq| times its reach. Where spheres and boxes prove that this motion cannot close the gap,
+nothing is asked; elsewhere the engine is, and the answer is good until the motion has used it up. What stays
+open is cut finer, down to 0.01 mm of motion. So an overlap of more than tolerance + 0.005 mm is always found.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from handey.check.kinematics import Frames, forward, joint_path
+from handey.check.robot import Joint, Robot
+from handey.check.solids import Engine, Piece, Placed
+from handey.check.values import Array
+
+__all__ = ["Actor", "Clearance", "Hit", "Job", "Samples", "Sweep"]
+
+FLOOR = 1e-5  # of motion between two samples, where cutting ends [m]
+HORIZON = 0.1  # clearances above this are not looked for [m]
+
+
+@dataclass
+class Samples:
+    """Configurations in time order. Interval k leads from sample k to k + 1, straight in joint space;
+    `step` (n - 1,) is the index of the plan's step that it is part of.
+    """
+
+    q: Array
+    opening: Array
+    time: Array
+    step: np.ndarray
+    frames: Frames
+
+
+@dataclass
+class Actor:
+    """A body in the sweep: rigid in a body of the robot, or standing in the world (`body` is None)."""
+
+    name: str
+    pieces: list[Piece]
+    body: int | None
+    pose: Array = field(default_factory=lambda: np.eye(4))
+
+    def __post_init__(self) -> None:
+        centres = np.vstack([piece.centres for piece in self.pieces])
+        radii = np.concatenate([piece.radii for piece in self.pieces])
+        self.centre = (centres.min(axis=0) + centres.max(axis=0)) / 2
+        self.radius = float((np.linalg.norm(centres - self.centre, axis=1) + radii).max())
+
+    def poses(self, frames: Frames) -> tuple[Array, Array]:
+        """Rotations (n, 3, 3) and positions (n, 3); n is 1 for what stands."""
+        if self.body is None:
+            return self.pose[None, :3, :3], self.pose[None, :3, 3]
+        R, p = frames.R[self.body], frames.p[self.body]
+        return R @ self.pose[:3, :3], R @ self.pose[:3, 3] + p
+
+
+@dataclass
+class Job:
+    """A pair of actors, and what is demanded of them in each interval.
+
+    Attributes:
+        live: (n - 1,) intervals that count for this pair.
+        tolerance: (n - 1,) overlap that is allowed [m].
+        clears: (n - 1,) intervals that count for the least clearance.
+        ways: (k, 3) directions in the world that may part them.
+    """
+
+    a: Actor
+    b: Actor
+    live: np.ndarray
+    tolerance: Array
+    clears: np.ndarray
+    ways: Array | None = None
+
+
+@dataclass
+class Clearance:
+    """The least distance met so far."""
+
+    least: float = HORIZON
+    between: tuple[str, str] | None = None
+    time: float | None = None
+    share: float = 0.9  # of the least: what is proven
+
+
+@dataclass
+class Hit:
+    """An overlap deeper than allowed."""
+
+    a: str
+    b: str
+    time: float
+    step: int
+    tolerance: float
+    depth: float
+
+
+class Sweep:
+    """Proves jobs one after the other."""
+
+    def __init__(self, robot: Robot, base: Array, engine: Engine) -> None:
+        self.robot, self.base, self.engine = robot, base, engine
+        self.samples = 0
+        self._paths = {i: joint_path(robot, i) for i in range(len(robot.bodies))}
+
+    def run(self, samples: Samples, jobs: list[Job], clearance: Clearance) -> list[Hit]:
+        """All jobs; the nearest pairs first, so that the least clearance is known early."""
+        self.samples += len(samples.q)
+        waiting = []
+        for job in jobs:
+            if not job.live.any():
+                continue
+            motion = self._motion(samples, job)
+            for i, j, bound in _bounds(samples.frames, job):
+                least = np.minimum(bound[:-1], bound[1:])[job.live].min()
+                waiting.append((float(least), len(waiting), job, i, j, bound, motion))
+        hits: list[Hit] = []
+        for *_, job, i, j, bound, motion in sorted(waiting, key=lambda entry: entry[:2]):
+            hits += self._prove(samples, job, (i, j), bound, motion, clearance)
+        return hits
+
+    def _motion(self, samples: Samples, job: Job) -> Array:
+        """Bound on the motion of the two actors against each other, for every interval (n - 1,)."""
+        paths: list[list[Joint]] = [
+            [] if actor.body is None else self._paths[actor.body] for actor in (job.a, job.b)
+        ]
+        total = np.zeros(len(samples.q) - 1)
+        turn = np.abs(np.diff(samples.q, axis=0))
+        slide = np.abs(np.diff(samples.opening)) / 2
+        arm = {joint.name: i for i, joint in enumerate(self.robot.joints)}
+        for actor, path, other in ((job.a, paths[0], paths[1]), (job.b, paths[1], paths[0])):
+            common = {joint.name for joint in other}
+            own = [joint for joint in path if joint.name not in common]
+            if not own:
+                continue
+            R, p = actor.poses(samples.frames)
+            centre = (R @ actor.centre + p)[:-1]
+            reach = {}
+            for joint in own:
+                if not joint.prismatic:
+                    i = arm[joint.name]
+                    arm_vector = centre - samples.frames.axis_point[i, :-1]
+                    off = np.cross(samples.frames.axis[i, :-1], arm_vector)
+                    reach[i] = np.linalg.norm(off, axis=1) + actor.radius
+            # Joints further out change the distance to an axis within the interval: add their motion.
+            outer = np.zeros(len(turn))
+            for joint in reversed(own):
+                if joint.prismatic:
+                    moved = slide
+                else:
+                    i = arm[joint.name]
+                    moved = turn[:, i] * (reach[i] + outer)
+                outer = outer + moved
+            total += outer
+        return total
+
+    def _prove(
+        self, samples: Samples, job: Job, pair: tuple[int, int], bound: Array, motion: Array,
+        clearance: Clearance,
+    ) -> list[Hit]:  # fmt: skip
+        aim = -job.tolerance
+        wanted = clearance.share * clearance.least - 5e-5
+        aim = np.where(job.clears, np.maximum(aim, wanted), aim)
+        unproven = job.live & (bound[:-1] + bound[1:] < motion + 2 * aim)
+        if not unproven.any():
+            return []
+        run = _Run(self.engine, samples, job, pair, clearance)
+        along = np.concatenate([[0.0], np.cumsum(motion)])
+        reach, hits, still_open = -math.inf, [], []
+        bad_step = -1
+        for k in np.flatnonzero(unproven):
+            if samples.step[k] == bad_step or along[k + 1] + aim[k] <= reach:
+                continue
+            near = run.value(k, k)
+            reach = max(reach, along[k] + near)
+            if along[k + 1] + aim[k] <= reach:
+                continue
+            far = run.value(k + 1, k)
+            if min(near, far) < -job.tolerance[k] - 1e-12:
+                bad_step = samples.step[k]
+                hits.append(run.hit(k if near < -job.tolerance[k] - 1e-12 else k + 1, k))
+                continue
+            reach = max(reach, along[k + 1] + far)
+            if near + far < motion[k] + 2 * aim[k] and motion[k] > FLOOR:
+                still_open.append((k, near + far - 2 * aim[k]))
+        if still_open:
+            hits += self._finer(samples, job, pair, motion, still_open, clearance)
+        return hits
+
+    def _finer(
+        self, samples: Samples, job: Job, pair: tuple[int, int], motion: Array,
+        intervals: list[tuple[int, float]], clearance: Clearance,
+    ) -> list[Hit]:  # fmt: skip
+        """The same for these intervals only, each cut into pieces as short as their gaps ask for."""
+        index, share, cut = [], [], []
+        for k, room in intervals:
+            count = int(np.clip(math.ceil(motion[k] / max(0.7 * room, FLOOR)), 2, 256))
+            index += [k] * (count + 1)
+            share += list(np.arange(count + 1) / count)
+            cut += [True] * count + [False]
+        at, s = np.array(index), np.array(share)
+        q = samples.q[at] * (1 - s)[:, None] + samples.q[at + 1] * s[:, None]
+        opening = samples.opening[at] * (1 - s) + samples.opening[at + 1] * s
+        time = samples.time[at] * (1 - s) + samples.time[at + 1] * s
+        frames = forward(self.robot, self.base, q, opening)
+        finer = Samples(q, opening, time, samples.step[at[:-1]], frames)
+        self.samples += len(q)
+        fine_job = Job(
+            job.a, job.b, np.array(cut[:-1]), job.tolerance[at[:-1]], job.clears[at[:-1]], job.ways
+        )
+        nothing = np.full(len(q), -math.inf)
+        fine_motion = np.where(fine_job.live, self._motion(finer, fine_job), 0.0)
+        # Blocks are not neighbours: what was proven in one says nothing of the next.
+        fine_motion[~fine_job.live] = 1e3
+        return self._prove(finer, fine_job, pair, nothing, fine_motion, clearance)
+
+
+class _Run:
+    """Measured values of one pair of pieces along one set of samples."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        samples: Samples,
+        job: Job,
+        pair: tuple[int, int],
+        clearance: Clearance,
+    ) -> None:
+        self.engine, self.samples, self.job, self.clearance = engine, samples, job, clearance
+        self.a, self.b = job.a.pieces[pair[0]], job.b.pieces[pair[1]]
+        self.poses_a, self.poses_b = job.a.poses(samples.frames), job.b.poses(samples.frames)
+        self.known: dict[tuple[int, float], float] = {}
+
+    def placed(self, k: int) -> tuple[Placed, Placed]:
+        result = []
+        for piece, (R, p) in ((self.a, self.poses_a), (self.b, self.poses_b)):
+            i = k if len(R) > 1 else 0
+            result.append(Placed(piece, R[i], p[i]))
+        return result[0], result[1]
+
+    def value(self, k: int, interval: int) -> float:
+        """Signed distance at sample k under the rules of an interval."""
+        tolerance = float(self.job.tolerance[interval])
+        if (k, tolerance) not in self.known:
+            value = self.engine.signed(*self.placed(k), tolerance, self.job.ways)
+            self.known[k, tolerance] = value
+        value = self.known[k, tolerance]
+        if self.job.clears[interval] and value < self.clearance.least:
+            self.clearance.least = max(value, 0.0)
+            self.clearance.between = (self.job.a.name, self.job.b.name)
+            self.clearance.time = float(self.samples.time[k])
+        return value
+
+    def hit(self, k: int, interval: int) -> Hit:
+        return Hit(
+            self.job.a.name, self.job.b.name, float(self.samples.time[k]), int(self.samples.step[interval]),
+            float(self.job.tolerance[interval]), self.engine.depth(*self.placed(k)),
+        )  # fmt: skip
+
+
+def _bounds(frames: Frames, job: Job) -> list[tuple[int, int, Array]]:
+    """For every pair of pieces a lower bound of their distance at each sample: spheres against a box."""
+    R_a, p_a = job.a.poses(frames)
+    R_b, p_b = job.b.poses(frames)
+    n = frames.R.shape[1]
+    R = np.broadcast_to(np.swapaxes(R_b, 1, 2) @ R_a, (n, 3, 3))
+    p = np.broadcast_to(_local(R_b, p_a - p_b), (n, 3))
+    centres = np.vstack([piece.centres for piece in job.a.pieces])
+    radii = np.concatenate([piece.radii for piece in job.a.pieces])
+    starts = np.cumsum([0] + [len(piece.radii) for piece in job.a.pieces])[:-1]
+    world = centres @ np.swapaxes(R, 1, 2) + p[:, None]  # (n, spheres, 3) in b's body frame
+    result = []
+    for j, piece in enumerate(job.b.pieces):
+        local = (world - piece.pose[:3, 3]) @ piece.pose[:3, :3] - piece.box_centre
+        outside = np.maximum(np.abs(local) - piece.box_half, 0.0)
+        gap = np.sqrt(np.einsum("nki,nki->nk", outside, outside)) - radii
+        least = np.minimum.reduceat(gap, starts, axis=1)
+        result += [(i, j, least[:, i]) for i in range(len(starts))]
+    return result
+
+
+def _local(R: Array, vectors: Array) -> Array:
+    """Each vector seen from a frame turned by R: R^T v, broadcast over the samples."""
+    return np.asarray((np.swapaxes(R, 1, 2) @ vectors[:, :, None])[:, :, 0])

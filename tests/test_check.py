@@ -1,0 +1,579 @@
+"""Each clause of 'a valid plan' is broken once; each time the check finds it under its name."""
+
+from __future__ import annotations
+
+import copy
+import json
+
+import hand_made
+import numpy as np
+import pytest
+from hand_made import BLOCK, BLOCK_GOAL, X_PH, PlanMaker, pick_and_place, pose, write_cell
+from handey.check import CLAUSES, check
+from handey.errors import InvalidInput
+
+ACTIONS = [
+    "transit",
+    "approach",
+    "grasp",
+    "depart",
+    "transfer",
+    "deposit",
+    "release",
+    "withdraw",
+    "transit",
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("cell")
+
+
+@pytest.fixture(scope="module")
+def cell(folder):
+    return write_cell(folder)
+
+
+@pytest.fixture(scope="module")
+def valid(cell):
+    return pick_and_place(cell)
+
+
+@pytest.fixture
+def plan(valid):
+    return copy.deepcopy(valid)
+
+
+def clauses(report):
+    return {fault.clause for fault in report.faults}
+
+
+def step_of(plan, action):
+    return next(i for i, step in enumerate(plan["steps"]) if step["action"] == action)
+
+
+def test_finds_nothing_wrong_with_a_valid_plan(cell, valid):
+    report = check(cell, valid)
+    assert report.ok, str(report)
+    assert [step["action"] for step in valid["steps"]] == ACTIONS
+    assert report.duration == pytest.approx(valid["steps"][-1]["time"][-1])
+    # The hand opens to 70 mm around 40 mm: 15 mm to either side.
+    assert report.least_clearance == pytest.approx(0.015, abs=1e-5)
+    assert set(report.least_clearance_between) & {"left_finger", "right_finger"}
+    assert 0.005 < report.least_self_clearance < 0.1
+
+
+def test_reads_a_plan_from_a_file_and_reports_as_json(cell, valid, tmp_path):
+    path = tmp_path / "plan.json"
+    path.write_text(json.dumps(valid))
+    report = check(cell, path)
+    assert json.loads(json.dumps(report.to_json()))["ok"] is True
+
+
+# ------------------------------------------------------------------------------------- form of the plan
+
+
+def test_finds_missing_keys(cell, plan):
+    del plan["placements"]
+    assert clauses(check(cell, plan)) == {"format"}
+
+
+def test_finds_a_missing_key_of_a_step(cell, plan):
+    del plan["steps"][2]["opening"]
+    report = check(cell, plan)
+    assert clauses(report) == {"format"} and report.faults[0].step == 2
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("joints", ["a"]), ("cell", "other"), ("handey_plan", 2), ("steps", {}), ("extra", 1)],
+)
+def test_finds_wrong_heads(cell, plan, key, value):
+    plan[key] = value
+    assert clauses(check(cell, plan)) == {"format"}
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("action", "jump"),
+        ("goal", 7),
+        ("goal", True),
+        ("part", "nobody"),
+        ("time", [0.0]),
+        ("opening", ["x"] * 60),
+    ],
+)
+def test_finds_wrong_values_of_a_step(cell, plan, key, value):
+    plan["steps"][0][key] = value
+    assert clauses(check(cell, plan)) == {"format"}
+
+
+def test_refuses_what_is_no_plan_at_all(cell, tmp_path):
+    path = tmp_path / "plan.json"
+    path.write_text('{"handey_plan": NaN}')
+    with pytest.raises(InvalidInput):
+        check(cell, path)
+    with pytest.raises(InvalidInput):
+        check(cell, tmp_path / "none.json")
+
+
+@pytest.mark.parametrize("swap", [(2, 3), (5, 6), (1, 2), (6, 7)])
+def test_finds_a_wrong_order_of_steps(cell, plan, swap):
+    a, b = swap
+    plan["steps"][a]["action"], plan["steps"][b]["action"] = (
+        plan["steps"][b]["action"],
+        plan["steps"][a]["action"],
+    )
+    report = check(cell, plan)
+    assert "grammar" in clauses(report)
+    assert next(f for f in report.faults if f.clause == "grammar").step in (a, b)
+
+
+def test_finds_a_plan_that_ends_with_the_part_in_the_hand(cell, plan):
+    plan["steps"] = plan["steps"][:5]
+    assert "grammar" in clauses(check(cell, plan))
+
+
+def test_finds_a_part_named_while_none_is_held(cell, plan):
+    plan["steps"][7]["part"] = "block"
+    assert clauses(check(cell, plan)) == {"held"}
+
+
+def test_finds_a_part_that_slips_in_the_hand(cell, plan):
+    plan["steps"][4]["part_in_grasp_frame"]["xyz"][0] += 1e-5
+    assert clauses(check(cell, plan)) == {"held"}
+
+
+# ------------------------------------------------------------------------------------- time and joints
+
+
+def test_finds_a_gap_between_steps(cell, plan):
+    for row in plan["steps"][8]["positions"][:1]:
+        row[5] += 1e-6
+    report = check(cell, plan)
+    assert clauses(report) == {"continuity"} and report.faults[0].step == 8
+
+
+def test_finds_an_opening_that_jumps_between_steps(cell, plan):
+    plan["steps"][8]["opening"][0] += 1e-6
+    assert "continuity" in clauses(check(cell, plan))
+
+
+def test_finds_time_that_goes_back(cell, plan):
+    plan["steps"][4]["time"][10] = plan["steps"][4]["time"][8]
+    assert "time" in clauses(check(cell, plan))
+
+
+def test_finds_time_that_does_not_start_at_zero(cell, plan):
+    for step in plan["steps"]:
+        step["time"] = [t + 1.0 for t in step["time"]]
+    assert clauses(check(cell, plan)) == {"time"}
+
+
+def test_finds_a_joint_that_is_too_fast(cell, plan):
+    for step in plan["steps"]:
+        step["time"] = [t * 0.45 for t in step["time"]]
+    report = check(cell, plan)
+    assert clauses(report) == {"velocity"}
+    assert any("joint" in fault.message for fault in report.faults)
+
+
+def test_finds_fingers_that_are_too_fast(cell, plan):
+    times = plan["steps"][2]["time"]
+    start = times[0]
+    plan["steps"][2]["time"] = [start + (t - start) * 0.3 for t in times]
+    report = check(cell, plan)
+    assert clauses(report) == {"velocity"} and report.faults[0].step == 2
+    assert "finger" in report.faults[0].message
+
+
+def test_finds_a_joint_beyond_its_limit(cell, plan):
+    step = plan["steps"][8]
+    for k, row in enumerate(step["positions"][1:-1]):
+        row[4] += 1.9 * np.sin(np.pi * (k + 1) / 59)
+    step["time"] = [step["time"][0] + 10 * (t - step["time"][0]) for t in step["time"]]
+    report = check(cell, plan)
+    assert "joint-limits" in clauses(report)
+    assert any("joint5" in fault.message for fault in report.faults)
+
+
+def test_finds_an_opening_beyond_its_limit(cell, plan):
+    plan["steps"][0]["opening"][5] = 0.11
+    assert "joint-limits" in clauses(check(cell, plan))
+
+
+def test_finds_an_arm_that_moves_while_the_hand_closes(cell, plan):
+    plan["steps"][2]["positions"][4][0] += 1e-6
+    assert clauses(check(cell, plan)) == {"still"}
+
+
+def test_finds_a_hand_that_works_while_it_carries(cell, plan):
+    plan["steps"][4]["opening"][30] -= 2e-5
+    assert clauses(check(cell, plan)) == {"still"}
+
+
+def test_finds_a_start_that_is_not_the_cells(folder, valid, tmp_path):
+    moved = write_cell(tmp_path, robot={"start": [0.01, 1.5708, -1.5708, 0, 0, 0]})
+    assert clauses(check(moved, valid)) == {"start", "finish"}
+
+
+def test_finds_a_start_opening_that_is_not_the_cells(valid, tmp_path):
+    moved = write_cell(tmp_path, robot={"start_opening": 0.09})
+    assert clauses(check(moved, valid)) == {"start"}
+
+
+def test_finds_an_arm_that_does_not_return(cell, plan, tmp_path):
+    plan["steps"].pop()
+    assert clauses(check(cell, plan)) == {"finish"}
+    assert check(write_cell(tmp_path, finish="anywhere"), plan).ok
+
+
+# ------------------------------------------------------------------------------------------- collision
+
+
+def wall(size, xyz):
+    return {"wall": {"box": size, "pose": {"xyz": xyz}}}
+
+
+def test_finds_a_wall_between_the_ends_of_a_transfer(valid, tmp_path):
+    cell = write_cell(tmp_path, fixtures=wall([0.3, 0.02, 0.3], [0.5, 0.0, 0.15]))
+    report = check(cell, valid)
+    assert clauses(report) == {"collision"}
+    assert {"wall"} < {word for f in report.faults for word in f.message.split()}
+    assert step_of(valid, "transfer") in {fault.step for fault in report.faults}
+    assert report.least_clearance == 0.0
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 5e-5])
+def test_finds_a_wall_thinner_than_any_step(cell, plan, tmp_path, thickness):
+    # All rows of the transfer but its ends are left out: the part goes right through in one stride.
+    step = plan["steps"][4]
+    middle = [0, -1]
+    for key in ("time", "positions", "opening"):
+        step[key] = [step[key][k] for k in middle]
+    assert check(cell, plan).ok
+    thin = write_cell(tmp_path, fixtures=wall([0.3, thickness, 0.3], [0.5, 0.013, 0.15]))
+    report = check(thin, plan)
+    assert clauses(report) == {"collision"}
+    assert any("block and wall" in fault.message for fault in report.faults)
+
+
+def test_tells_a_hair_from_a_collision(valid, tmp_path):
+    # The part's top is at 0.05 + 0.12 where it is carried; find the least height of a beam above it.
+    step = valid["steps"][0]
+    assert step["opening"][-1] == pytest.approx(0.07)
+    for gap, fine in ((1e-4, True), (-1e-4, False)):
+        # In the approach the pads pass beside a post of this distance from the open finger.
+        y = 0.15 + 0.035 + 0.012 + gap + 0.01
+        post = {"post": {"box": [0.02, 0.02, 0.06], "pose": {"xyz": [0.5, y, 0.03]}}}
+        report = check(write_cell(tmp_path, fixtures=post), valid)
+        assert report.ok is fine, str(report)
+        if fine:
+            assert report.least_clearance == pytest.approx(gap, rel=0.25)
+        else:
+            assert clauses(report) == {"collision"}
+
+
+def mesh_of_cube(path, size, inverted=False):
+    import trimesh
+
+    cube = trimesh.creation.box([size, size, size])
+    # A dent makes it concave, so that the engine knows only its skin.
+    cube = cube.subdivide()
+    corner = np.argmin(cube.vertices.sum(axis=1))
+    cube.vertices[corner] *= 0.5
+    cube.export(path)
+
+
+def test_finds_a_part_that_is_wholly_inside_a_solid(valid, tmp_path):
+    mesh_of_cube(tmp_path / "cube.stl", 1.2)
+    cell = write_cell(
+        tmp_path, fixtures={"cube": {"mesh": "cube.stl", "pose": {"xyz": [0.5, 0.0, 0.2]}}}
+    )
+    report = check(cell, valid)
+    assert "collision" in clauses(report)
+    held = [
+        f
+        for f in report.faults
+        if f.message.startswith("block and cube") and f.action == "transfer"
+    ]
+    assert held
+
+
+def test_knows_the_inside_of_an_open_tray_from_its_walls(valid, tmp_path):
+    import trimesh
+
+    outer = trimesh.creation.box([0.4, 0.3, 0.03])
+    floor = [
+        trimesh.creation.box(s, trimesh.transformations.translation_matrix(t))
+        for s, t in (
+            ([0.4, 0.005, 0.03], [0, 0.15, 0.015]),
+            ([0.4, 0.005, 0.03], [0, -0.15, 0.015]),
+        )
+    ]
+    assert outer.is_watertight
+    trimesh.util.concatenate(floor).export(tmp_path / "walls.stl")
+    cell = write_cell(
+        tmp_path, fixtures={"walls": {"mesh": "walls.stl", "pose": {"xyz": [0.5, -0.15, 0]}}}
+    )
+    assert check(cell, valid).ok
+
+
+def test_finds_an_arm_that_hits_itself(cell):
+    maker = PlanMaker(cell)
+    folded = [0.0, 3.39, 0.01, 2.64, -0.19, 2.14]  # behind the base, a finger in it
+    maker.move("transit", folded)
+    maker.finish()
+    report = check(cell, maker.plan())
+    assert "self-collision" in clauses(report)
+
+
+def test_finds_a_hit_of_what_is_held_with_a_part_that_stands(valid, tmp_path):
+    cell = write_cell(
+        tmp_path, parts={"bystander": {"box": [0.04, 0.04, 0.2], "pose": {"xyz": [0.5, 0.0, 0.1]}}}
+    )
+    report = check(cell, valid)
+    assert any(
+        "block and bystander" in f.message and f.clause == "collision" for f in report.faults
+    )
+
+
+def test_finds_fingers_pressed_too_deep(cell):
+    report = check(cell, pick_and_place(cell, width=0.0385))
+    assert {"contact", "pads"} <= clauses(report)
+    assert check(cell, pick_and_place(cell, width=0.0394)).ok
+
+
+def test_finds_a_part_pressed_into_the_table(tmp_path):
+    low = pose([0.50, -0.15, 0.0243], np.eye(3))
+    cell = write_cell(tmp_path, task=[{"place": "block", "at": {"xyz": low[:3, 3].tolist()}}])
+    report = check(cell, pick_and_place(cell, X_to=low))
+    assert "contact" in clauses(report)
+    near = pose([0.50, -0.15, 0.0247], np.eye(3))
+    cell = write_cell(tmp_path, task=[{"place": "block", "at": {"xyz": near[:3, 3].tolist()}}])
+    assert check(cell, pick_and_place(cell, X_to=near)).ok
+
+
+def test_allows_contact_only_near_the_place(tmp_path):
+    # The block is 0.3 mm deep in a wall beside it. Drawn along the wall it stays so: no more a contact.
+    beside = {
+        "wall": {"box": [0.3, 0.02, 0.3], "pose": {"xyz": [0.5, 0.15 + 0.02 + 0.01 - 3e-4, 0.15]}}
+    }
+    cell = write_cell(tmp_path, fixtures=beside)
+    turned = hand_made.pose([0, 0, 0.005], hand_made.rpy_matrix(np.pi, 0, np.pi / 2))
+    report = check(cell, pick_and_place(cell, X_PH=turned, width=0.06, open_to=0.08))
+    along = [f for f in report.faults if f.message.startswith("block and wall")]
+    assert {f.action for f in along} == {"depart", "transfer"}
+    assert {f.clause for f in along} == {"collision"}
+
+
+def test_finds_a_hand_that_hits_the_part_it_goes_for(cell, plan):
+    maker = PlanMaker(cell)
+    maker.carry("block", BLOCK, BLOCK_GOAL, X_PH, 0.04, open_to=0.0399)
+    maker.finish()
+    report = check(cell, maker.plan())
+    assert any(f.clause == "collision" and f.action == "approach" for f in report.faults)
+
+
+# ---------------------------------------------------------------------------------------- grip and rest
+
+
+def test_finds_pads_that_do_not_reach_the_part(cell):
+    report = check(cell, pick_and_place(cell, width=0.0415))
+    assert clauses(report) == {"pads"}
+
+
+def test_finds_pads_beside_the_face(cell):
+    # 0.6 mm of the 20 mm wide pads are on the 60 mm long face: 18 mm2 < 25 mm2.
+    beside = hand_made.pose([0.0394, 0, 0.005])
+    report = check(cell, pick_and_place(cell, X_PH=beside))
+    assert clauses(report) == {"pads"}
+    enough = hand_made.pose([0.0388, 0, 0.005])
+    assert check(cell, pick_and_place(cell, X_PH=enough)).ok
+
+
+def test_finds_pads_askew_to_the_faces(cell):
+    askew = hand_made.pose([0, 0, 0.005], hand_made.rpy_matrix(np.pi, 0, np.radians(1.5)))
+    report = check(cell, pick_and_place(cell, X_PH=askew, width=0.0402))
+    assert "pads" in clauses(report) or not report.ok
+
+
+def test_finds_a_part_that_jumps_into_the_hand(cell, plan):
+    for step in plan["steps"][3:6]:
+        step["part_in_grasp_frame"]["xyz"][0] += 2e-4
+    assert "jump" in clauses(check(cell, plan))
+
+
+@pytest.mark.parametrize(
+    ("x", "stable"),
+    [(0.0, True), (0.028, True), (0.032, False)],
+    ids=["whole", "edge", "over the edge"],
+)
+def test_finds_parts_that_tip_over(tmp_path, x, stable):
+    # A plinth under the goal; the block's middle is x from its middle, its edge is at 30 mm.
+    plinth = {"plinth": {"box": [0.06, 0.1, 0.02], "pose": {"xyz": [0.5, -0.15, 0.01]}}}
+    goal = pose([0.5 + x, -0.15, 0.045], np.eye(3))
+    cell = write_cell(
+        tmp_path, fixtures=plinth, task=[{"place": "block", "at": {"xyz": goal[:3, 3].tolist()}}]
+    )
+    report = check(cell, pick_and_place(cell, X_to=goal))
+    assert report.ok is stable, str(report)
+    if not stable:
+        assert clauses(report) == {"stability"} and "tips over" in report.faults[0].message
+
+
+def test_finds_parts_let_go_in_the_air(tmp_path):
+    goal = pose([0.5, -0.15, 0.0257], np.eye(3))
+    cell = write_cell(tmp_path, task=[{"place": "block", "at": {"xyz": goal[:3, 3].tolist()}}])
+    report = check(cell, pick_and_place(cell, X_to=goal))
+    assert clauses(report) == {"stability"} and "nothing" in report.faults[0].message
+
+
+def test_finds_a_part_on_a_ridge(tmp_path):
+    ridge = {"ridge": {"box": [0.0018, 0.1, 0.02], "pose": {"xyz": [0.5, -0.15, 0.01]}}}
+    goal = pose([0.5, -0.15, 0.045], np.eye(3))
+    cell = write_cell(
+        tmp_path, fixtures=ridge, task=[{"place": "block", "at": {"xyz": goal[:3, 3].tolist()}}]
+    )
+    report = check(cell, pick_and_place(cell, X_to=goal))
+    assert clauses(report) == {"stability"} and "wide" in report.faults[0].message
+
+
+def regrasp(cell):
+    maker = PlanMaker(cell)
+    between = pose([0.6, 0.0, 0.025], np.eye(3))
+    maker.carry("block", BLOCK, between, X_PH, 0.04)
+    maker.carry("block", between, BLOCK_GOAL, X_PH, 0.04)
+    maker.finish()
+    return maker.plan()
+
+
+def test_accepts_a_regrasp_on_a_support_and_on_nothing_else(cell, tmp_path):
+    plan = regrasp(cell)
+    assert check(cell, plan).ok, str(check(cell, plan))
+    bare = copy.deepcopy(hand_made.CELL["fixtures"]["table"])
+    bare["support"] = False
+    report = check(write_cell(tmp_path, fixtures={"table": bare}), plan)
+    assert clauses(report) == {"support"}
+
+
+# ------------------------------------------------------------------------------------------------ goals
+
+
+def test_finds_a_wrong_place(tmp_path, valid):
+    for off, fine in ((0.9e-4, True), (1.2e-4, False)):
+        cell = write_cell(
+            tmp_path, task=[{"place": "block", "at": {"xyz": [0.5 + off, -0.15, 0.025]}}]
+        )
+        report = check(cell, valid)
+        assert report.ok is fine
+        assert fine or clauses(report) == {"goal"}
+
+
+def test_finds_a_wrong_turn(tmp_path, valid):
+    goal = {"xyz": [0.5, -0.15, 0.025], "rpy": [0, 0, 2e-3]}
+    assert clauses(check(write_cell(tmp_path, task=[{"place": "block", "at": goal}]), valid)) == {
+        "goal"
+    }
+
+
+def test_finds_an_unmet_goal_of_another_part(tmp_path, valid):
+    task = [*hand_made.CELL["task"], {"place": "bystander", "at": {"xyz": [0.35, 0.30, 0.02]}}]
+    report = check(write_cell(tmp_path, task=task), valid)
+    assert clauses(report) == {"goal"} and "bystander" in report.faults[0].message
+
+
+def test_accepts_goals_that_are_met_without_a_step(tmp_path, valid):
+    task = [*hand_made.CELL["task"], {"place": "bystander", "at": {"xyz": [0.35, 0.35, 0.02]}}]
+    assert check(write_cell(tmp_path, task=task), valid).ok
+    empty = {
+        "handey_plan": 1,
+        "cell": "hand_made",
+        "joints": valid["joints"],
+        "steps": [],
+        "placements": {},
+    }
+    assert check(write_cell(tmp_path, task=task[1:]), empty).ok
+    assert clauses(check(write_cell(tmp_path, task=task), empty)) == {"goal"}
+
+
+def test_finds_goals_in_a_wrong_order(tmp_path, cell):
+    there = {"place": "block", "at": {"xyz": [0.6, 0.0, 0.025]}}
+    plan = regrasp(cell)
+    for step in plan["steps"][8:]:
+        step["goal"] = 1
+    assert check(write_cell(tmp_path, task=[there, *hand_made.CELL["task"]]), plan).ok
+    for step in plan["steps"]:
+        step["goal"] = 1 - step["goal"]
+    assert "goal" in clauses(
+        check(write_cell(tmp_path, task=[*hand_made.CELL["task"], there]), plan)
+    )
+
+
+@pytest.mark.parametrize(
+    ("goal", "fine"),
+    [
+        ({"on": "table"}, True),
+        ({"on": "table", "resting": "same"}, True),
+        ({"on": "table", "region": [[0.45, -0.2], [0.55, -0.1]]}, True),
+        ({"on": "table", "region": [[0.50, -0.2], [0.55, -0.1]]}, False),
+        ({"inside": "table"}, False),
+    ],
+)
+def test_judges_goals_without_a_pose(tmp_path, valid, goal, fine):
+    report = check(write_cell(tmp_path, task=[{"place": "block", **goal}]), valid)
+    assert report.ok is fine, str(report)
+    assert fine or clauses(report) == {"goal"}
+
+
+def test_finds_a_part_moved_without_leave(tmp_path, cell):
+    maker = PlanMaker(cell)
+    maker.carry("block", BLOCK, BLOCK_GOAL, X_PH, 0.04)
+    maker.finish()
+    task = [{"place": "bystander", "at": {"xyz": [0.35, 0.35, 0.02]}}]
+    report = check(write_cell(tmp_path, task=task), maker.plan())
+    assert clauses(report) == {"moved"}
+    free = {**hand_made.CELL["parts"]["block"], "may_move": True}
+    assert check(write_cell(tmp_path, task=task, parts={"block": free}), maker.plan()).ok
+
+
+def test_finds_wrong_placements(cell, plan):
+    plan["placements"]["block"]["xyz"][0] += 2e-4
+    assert clauses(check(cell, plan)) == {"placements"}
+    plan["placements"] = {}
+    assert clauses(check(cell, plan)) == {"placements"}
+
+
+# ------------------------------------------------------------------------------------------ the checker
+
+
+def test_shares_no_code_with_the_planner():
+    import ast
+    from pathlib import Path
+
+    import handey.check
+
+    for source in Path(handey.check.__file__).parent.glob("*.py"):
+        for node in ast.walk(ast.parse(source.read_text())):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                names = [node.module or ""]
+                assert node.level == 0
+                assert node.module != "handey", source
+            for name in names:
+                if name.split(".")[0] == "handey":
+                    assert name.startswith("handey.check") or name == "handey.errors", (
+                        source,
+                        name,
+                    )
+
+
+def test_each_clause_is_broken_by_some_test():
+    from pathlib import Path
+
+    text = Path(__file__).read_text()
+    assert [clause for clause in CLAUSES if f'"{clause}"' not in text] == []
