@@ -14,6 +14,7 @@ import pytest
 
 from handey.cell_file import read_cell
 from handey.errors import InvalidInput
+from handey.plan import Plan, Step
 from handey.robot_file import read_robot
 from handey.strict_yaml import MOST_BYTES, read_yaml
 
@@ -496,3 +497,53 @@ def test_a_wrong_robot_file_is_refused_at_its_place(name, tmp_path):
     assert old in ROBOT
     path.write_text(ROBOT.replace(old, new))
     assert (code, place) in faults_of(read_robot, path)
+
+
+# Anything at all
+
+
+def spoilt(random: np.random.Generator, content: bytes) -> bytes:
+    """The content with a few bytes changed, lost, doubled or put in."""
+    for _ in range(random.integers(1, 6)):
+        at, size = int(random.integers(len(content))), int(random.integers(1, 12))
+        piece = content[at : at + size]
+        other = int(random.integers(len(content)))
+        new = [
+            b"",
+            piece + piece,
+            bytes(random.integers(0, 256, size, dtype=np.uint8)),
+            content[other : other + size],
+            bytes(random.choice(list(b"[]{}:,-&*!|>'\"%@`~#?\n\t 0.e"), size).tolist()),
+        ][random.integers(5)]
+        content = content[:at] + new + content[at + size :]
+    return content
+
+
+STEP = Step("depart", 0, "b", np.eye(4), [0.0, 0.1], [[1.0], [1.5e-3]], [0.1, 0.1])
+PLAN = Plan("c", ("a",), (STEP,), {"b": np.eye(4)})
+SPOILT = {
+    "cell": (
+        read_cell,
+        CELL.format(
+            robot="", table="", block="", more="", task=TASK, pose="{xyz: [0.5, 0.1, 1.5e-2]}"
+        ),
+    ),
+    "robot": (read_robot, ROBOT),
+    "plan": (Plan.load, PLAN.to_json()),
+}
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_a_spoilt_file_is_read_or_refused_and_nothing_else(name, tmp_path):
+    read, text = SPOILT[name]
+    (tmp_path / "robot.yaml").write_text("handey_robot: 1\n")
+    (tmp_path / "arm.urdf").write_text("<robot/>")
+    path, random, refused = tmp_path / "spoilt", np.random.default_rng(8), 0
+    for _ in range(1500):
+        path.write_bytes(spoilt(random, text.encode()))
+        try:
+            read(path)
+        except InvalidInput as error:
+            refused += 1
+            assert error.faults and all(fault.code and fault.message for fault in error.faults)
+    assert refused > 300
