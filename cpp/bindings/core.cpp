@@ -27,4 +27,5 @@ PYBIND11_MODULE(_core, m) {
   using namespace handey::bindings;
   // Floors, lowest first.
   bind_geometry(m);
+  bind_kinematics(m);
 }

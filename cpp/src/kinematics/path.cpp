@@ -36,6 +36,10 @@ HandPathResult follow_hand_path(const SphericalWristSolver& solver,
     throw InvalidInput("E_RANGE", "largest_jump",
                        "is " + number_text(options.largest_jump) + "; expected more than 0 rad");
   }
+  if (q_start.size() != 6 || !q_start.allFinite()) {
+    throw InvalidInput(q_start.size() != 6 ? "E_DOF" : "E_NUMBER", "q_start",
+                       "expected 6 finite joint values [rad]");
+  }
   HandPathResult result;
   Eigen::VectorXd q = q_start;
   for (std::size_t i = 0; i < X_RH_path.size(); ++i) {
