@@ -199,10 +199,8 @@ def check_command(options: argparse.Namespace) -> int:
     faults = [one_line(str(fault)) for fault in checked.faults]
     clearance = checked.least_clearance
     summary = checked.to_json() | {"valid": checked.ok}
-    lines = [
-        f"{options.plan}: {'valid' if checked.ok else f'not valid, {len(faults)} faults'}",
-        *faults,
-    ]
+    count = f"{len(faults)} fault{'' if len(faults) == 1 else 's'}"
+    lines = [f"{options.plan}: {'valid' if checked.ok else f'not valid, {count}'}", *faults]
     if clearance is not None and math.isfinite(clearance) and checked.ok:
         lines.append(f"  least clearance: {clearance * 1e3:.2f} mm")
     tell(options, summary, lines)
