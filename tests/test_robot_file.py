@@ -67,15 +67,16 @@ def test_a_name_that_the_urdf_does_not_have_is_refused(puma):
     spoil(puma, arm[2], arm[2] + "x")
     with pytest.raises(InvalidInput) as caught:
         load_robot(puma)
-    assert "E_REF" in [fault.code for fault in caught.value.faults]
+    (fault,) = [fault for fault in caught.value.faults if fault.code == "E_REF"]
+    assert (fault.file, fault.place) == (str(puma), "arm")
+    assert f"'{arm[2]}x'" in fault.message and f"'{arm[2]}'" in fault.message
 
 
 def test_an_ignored_pair_of_links_that_do_not_exist_is_refused(puma):
     pytest.importorskip("handey._core")
-    with puma.open("a") as stream:
-        stream.write("\nignore_collisions: [[no_such_link, nor_this]]\n")
-    if "ignore_collisions" in PUMA.read_text():
-        pytest.skip("the model has pairs of its own")
+    text = puma.read_text().partition("ignore_collisions:")[0]
+    puma.write_text(text + "ignore_collisions: [[no_such_link, nor_this]]\n")
     with pytest.raises(InvalidInput) as caught:
         load_robot(puma)
     assert [fault.code for fault in caught.value.faults] == ["E_REF", "E_REF"]
+    assert all(fault.file == str(puma) for fault in caught.value.faults)

@@ -119,20 +119,17 @@ def build_robot(entry: RobotEntry) -> tuple[_core.Robot, list[str]]:
     try:
         loaded = _core.load_robot(os.fspath(entry.urdf), description)
     except InvalidInput as error:
-        raise InvalidInput([_in_file(fault, entry.urdf) for fault in error.faults]) from None
+        raise InvalidInput([_in_file(fault, entry) for fault in error.faults]) from None
     return loaded.robot, [f"{entry.urdf}: {warning}" for warning in loaded.warnings]
 
 
-def _in_file(fault: Fault, urdf: Path) -> Fault:
-    """The fault with the URDF as its file, which the core names at the start of the place."""
-    if fault.file:
-        return fault
-    place = fault.place
-    for name in (os.fspath(urdf), urdf.name):
-        if place.startswith(name):
-            place = re.sub(r"^(\d+)", r"line \1", place[len(name) :].lstrip(": "))
-            break
-    return Fault(fault.code, place, fault.message, os.fspath(urdf))
+def _in_file(fault: Fault, entry: RobotEntry) -> Fault:
+    """The fault with its file: the URDF, whose name then starts the place, or the robot file."""
+    for name in (os.fspath(entry.urdf), entry.urdf.name):
+        if fault.place.startswith(name):
+            place = re.sub(r"^(\d+)", r"line \1", fault.place[len(name) :].lstrip(": "))
+            return Fault(fault.code, place, fault.message, os.fspath(entry.urdf))
+    return Fault(fault.code, fault.place, fault.message, fault.file or os.fspath(entry.file))
 
 
 def _distinct(field: Field, what: str) -> tuple[str, ...] | None:
