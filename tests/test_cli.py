@@ -37,6 +37,10 @@ class StandInReport:
     deadline_passed: bool = False
     stages: dict = field(default_factory=lambda: {"grasp": 0.2, "approach": 0.3})
 
+    def __post_init__(self):
+        tried = types.SimpleNamespace(grasp="faces 1/2", stage="approach", reason="meets a wall")
+        self.goals = [types.SimpleNamespace(goal=0, grasp="faces 0/3", attempts=[tried])]
+
     def as_dict(self):
         return {"verdict": self.verdict, "attempts": 3}
 
@@ -107,7 +111,8 @@ def test_a_plan_found_is_written_and_told(workshop, capsys, tmp_path):
     assert cli.main(["plan", "cell.yaml"]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    assert "goal 0: block on table" in out and "jaws closed to 30.0 mm" in out
+    assert "goal 0: block on table" in out
+    assert "grasp: faces 0/3; jaws closed to 30.0 mm" in out and "meets a wall" not in out
     assert "motion: 8.00 s in 8 steps, regrasps: 0" in out
     assert "0.50 s CPU (grasp 0.20, approach 0.30)" in out and "least clearance: 3.10 mm" in out
     assert "plan: cell.plan.json" in out
@@ -120,6 +125,11 @@ def test_the_plan_goes_where_it_is_told(workshop, tmp_path):
     assert cli.main(["plan", "cell.yaml", "-o", "out/my.json", "--quiet", "--seed", "7"]) == 0
     assert os.listdir(tmp_path / "out") == ["my.json"]
     assert workshop.options.seed == 7
+
+
+def test_verbose_tells_every_grasp_that_was_tried(workshop, capsys):
+    assert cli.main(["plan", "cell.yaml", "--verbose"]) == 0
+    assert "goal 0, try 0: faces 1/2: approach: meets a wall" in capsys.readouterr().out
 
 
 def test_json_is_one_object_with_the_figures_asked_for(workshop, capsys):

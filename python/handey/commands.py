@@ -14,10 +14,11 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import handey
 from handey.errors import Fault, InvalidInput
+from handey.summary import no_plan_lines, plan_lines, plan_summary
 from handey.terminal import complain, one_line, tell, warn
 
 if TYPE_CHECKING:
@@ -49,14 +50,11 @@ def plan_command(options: argparse.Namespace) -> int:
         cell, result, checked = within(options.deadline, lambda: _plan_and_check(options, start))
     except DeadlinePassedError:
         return _deadline_passed(options, start)
-    summary = _plan_summary(cell, result, checked)
+    summary = plan_summary(cell, result, checked)
     if result.plan is None:
-        tell(
-            options,
-            summary,
-            [f"{cell.name}: no plan found ({result.report.verdict})", *_reasons(result)],
-        )
+        tell(options, summary, no_plan_lines(cell, result, options.verbose))
         return DEADLINE if result.report.deadline_passed else NO_PLAN
+    assert checked is not None
     if not checked.ok:
         tell(options, summary | {"verdict": "unknown"}, [])
         complain("internal error: the plan found is not valid; nothing has been written")
@@ -64,17 +62,14 @@ def plan_command(options: argparse.Namespace) -> int:
             complain(str(fault))
         return NO_PLAN
     result.plan.save(output)
-    tell(
-        options,
-        summary | {"output": str(output)},
-        [*_plan_text(cell, result, checked), f"plan: {output}"],
-    )
+    lines = [*plan_lines(cell, result, checked, options.verbose), f"plan: {output}"]
+    tell(options, summary | {"output": str(output)}, lines)
     return OK
 
 
 def _plan_and_check(
     options: argparse.Namespace, start: float
-) -> tuple[CellFile, PlanResult, CheckReport]:
+) -> tuple[CellFile, PlanResult, CheckReport | None]:
     from handey.cell_file import load_cell
 
     cell = load_cell(options.cell)
@@ -133,61 +128,6 @@ def _deadline_passed(options: argparse.Namespace, start: float) -> int:
     tell(options, summary, [])
     complain(f"{options.cell}: the deadline of {options.deadline:g} s passed")
     return DEADLINE
-
-
-def _plan_summary(
-    cell: CellFile, result: PlanResult, checked: CheckReport | None
-) -> dict[str, Any]:
-    report, plan = result.report, result.plan
-    summary = {
-        "verdict": report.verdict,
-        "cell": cell.name,
-        "cpu_s": report.cpu_s,
-        "wall_s": report.wall_s,
-        "duration_s": None if plan is None else plan.duration_s,
-        "regrasps": None if plan is None else report.regrasps,
-        "stages": dict(report.stages),
-        "steps": None if plan is None else len(plan.steps),
-        "least_clearance": None if checked is None else checked.least_clearance,
-        "reasons": list(report.reasons),
-        "warnings": list(cell.warnings),
-    }
-    return dict(report.as_dict()) | summary
-
-
-def _reasons(result: PlanResult) -> list[str]:
-    return [f"  {reason}" for reason in result.report.reasons]
-
-
-def _plan_text(cell: CellFile, result: PlanResult, checked: CheckReport) -> list[str]:
-    """The summary for people."""
-    plan, report = result.plan, result.report
-    assert plan is not None
-    lines = [f"{cell.name}: planned"]
-    if not plan.steps:
-        lines.append("  every goal is already met: nothing to do")
-    for index, goal in enumerate(cell.goals):
-        steps = [step for step in plan.steps if step.goal == index]
-        if steps:
-            lines.append(f"  goal {index}: {goal}")
-            widths = [
-                f"{step.opening[-1] * 1e3:.1f} mm" for step in steps if step.action == "grasp"
-            ]
-            lines.append(f"    grasp: jaws closed to {', then '.join(widths)}")
-            lines.append(
-                "    steps: "
-                + ", ".join(f"{step.action} {step.duration_s:.2f} s" for step in steps)
-            )
-    lines.append(
-        f"  motion: {plan.duration_s:.2f} s in {len(plan.steps)} steps, regrasps: {report.regrasps}"
-    )
-    stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report.stages.items())
-    lines.append(
-        f"  planning: {report.cpu_s:.2f} s CPU ({stages}), {report.wall_s:.2f} s on the clock"
-    )
-    if checked.least_clearance is not None and math.isfinite(checked.least_clearance):
-        lines.append(f"  least clearance: {checked.least_clearance * 1e3:.2f} mm")
-    return lines
 
 
 def check_command(options: argparse.Namespace) -> int:

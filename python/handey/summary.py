@@ -1,0 +1,89 @@
+"""How planning went, in a few lines for people or as one JSON object.
+
+Goal by goal: the grasp, the steps, then the motion, the CPU time by stage and the least clearance
+that the check found.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from handey.cell_file import CellFile
+    from handey.check import CheckReport
+    from handey.plan import Plan
+    from handey.planner import PlanResult
+
+__all__ = ["no_plan_lines", "plan_lines", "plan_summary"]
+
+
+def plan_summary(cell: CellFile, result: PlanResult, checked: CheckReport | None) -> dict[str, Any]:
+    """The figures, for programs."""
+    report, plan = result.report, result.plan
+    summary = {
+        "verdict": report.verdict,
+        "cell": cell.name,
+        "cpu_s": report.cpu_s,
+        "wall_s": report.wall_s,
+        "duration_s": None if plan is None else plan.duration_s,
+        "regrasps": None if plan is None else report.regrasps,
+        "stages": dict(report.stages),
+        "steps": None if plan is None else len(plan.steps),
+        "least_clearance": None if checked is None else checked.least_clearance,
+        "reasons": list(report.reasons),
+        "warnings": list(cell.warnings),
+    }
+    return dict(report.as_dict()) | summary
+
+
+def no_plan_lines(cell: CellFile, result: PlanResult, verbose: bool) -> list[str]:
+    """Why there is no plan."""
+    lines = [f"{cell.name}: no plan found ({result.report.verdict})"]
+    lines += [f"  {reason}" for reason in result.report.reasons]
+    return lines + (_attempts(result) if verbose else [])
+
+
+def plan_lines(
+    cell: CellFile, result: PlanResult, checked: CheckReport, verbose: bool
+) -> list[str]:
+    """What was planned."""
+    plan, report = result.plan, result.report
+    assert plan is not None
+    lines = [f"{cell.name}: planned"]
+    if not plan.steps:
+        lines.append("  every goal is already met: nothing to do")
+    for index, goal in enumerate(cell.goals):
+        lines += _goal_lines(plan, index, str(goal), report.goals[index].grasp)
+    seconds = f"{plan.duration_s:.2f} s in {len(plan.steps)} steps"
+    lines.append(f"  motion: {seconds}, regrasps: {report.regrasps}")
+    stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report.stages.items())
+    clock = f"{report.wall_s:.2f} s on the clock"
+    lines.append(f"  planning: {report.cpu_s:.2f} s CPU ({stages}), {clock}")
+    if math.isfinite(checked.least_clearance):
+        lines.append(f"  least clearance: {checked.least_clearance * 1e3:.2f} mm")
+    return lines + (_attempts(result) if verbose else [])
+
+
+def _goal_lines(plan: Plan, index: int, goal: str, grasp: str) -> list[str]:
+    steps = [step for step in plan.steps if step.goal == index]
+    if not steps:
+        return [f"  goal {index}: {goal}: met already"]
+    widths = [f"{step.opening[-1] * 1e3:.1f} mm" for step in steps if step.action == "grasp"]
+    closed = f"jaws closed to {', then '.join(widths)}"
+    times = ", ".join(f"{step.action} {step.duration_s:.2f} s" for step in steps)
+    return [
+        f"  goal {index}: {goal}",
+        f"    grasp: {grasp}; {closed}" if grasp else f"    grasp: {closed}",
+        f"    steps: {times}",
+    ]
+
+
+def _attempts(result: PlanResult) -> list[str]:
+    """Every grasp that was tried, and where it fell."""
+    lines = []
+    for goal in result.report.goals:
+        for number, attempt in enumerate(goal.attempts):
+            why = f": {attempt.reason}" if attempt.reason else ""
+            lines.append(f"  goal {goal.goal}, try {number}: {attempt.grasp}: {attempt.stage}{why}")
+    return lines
