@@ -1,0 +1,210 @@
+// Stretches of an edge are looked at in their middle. A pair of pieces is done with for the whole
+// stretch when it is farther apart there than it can come nearer by; the pairs that are not go on
+// to both halves.
+#include "handey/collision/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "checker_impl.hpp"
+#include "handey/errors.hpp"
+#include "motion_bounds.hpp"
+
+namespace handey {
+
+using collision::MotionBounds;
+using collision::PiecePair;
+
+namespace {
+
+constexpr double kRounding = 1e-9;  // of distances and bounds, far above what doubles lose [m]
+// Choice: so many stretches are looked at in order of size, which finds most collisions; after them
+// depth comes first, which finds the hopeless stretch soon instead of all of its kin.
+constexpr int kBroadFirst = 31;
+
+/// Middle `at` and half width of a stretch in the parameter of the edge, and the pairs not yet
+/// proved on it.
+struct Stretch {
+  double at = 0.5, half = 0.5;
+  std::vector<PiecePair> pairs;
+};
+
+void require_edge(CollisionChecker::Impl& checker, const Configuration& a, const Configuration& b,
+                  const CertificateOptions& options) {
+  checker.place(a);  // checks lengths and numbers
+  checker.place(b);
+  if (!std::isfinite(options.clearance) || options.clearance < 0.0) {
+    throw InvalidInput("E_RANGE", "certificate.clearance", "must be finite and not negative");
+  }
+  if (!std::isfinite(options.resolution) || options.resolution <= 0.0) {
+    throw InvalidInput("E_RANGE", "certificate.resolution", "must be finite and greater than 0");
+  }
+}
+
+Configuration between(const Configuration& a, const Configuration& b, double t) {
+  Configuration middle;
+  middle.q = a.q + t * (b.q - a.q);
+  middle.opening = a.opening + t * (b.opening - a.opening);
+  return middle;
+}
+
+/// The proof of one edge.
+class EdgeProof {
+ public:
+  EdgeProof(CollisionChecker::Impl& checker, const Configuration& a, const Configuration& b,
+            const CertificateOptions& options)
+      : checker_(checker), bounds_(checker), a_(a), b_(b), options_(options) {}
+
+  EdgeResult run() {
+    for (const double end : {0.0, 1.0}) {
+      if (!is_end_free(end)) return result_;
+    }
+    std::deque<Stretch> open;
+    Stretch whole;
+    if (!look_at_whole(whole)) return result_;
+    split(whole, open);
+    while (!open.empty()) {
+      const bool broad = result_.evaluations < kBroadFirst;
+      Stretch stretch = std::move(broad ? open.front() : open.back());
+      broad ? open.pop_front() : open.pop_back();
+      stand_in_middle(stretch);
+      if (!prove(stretch)) return result_;
+      split(stretch, open);
+    }
+    result_.status = EdgeStatus::Free;
+    return result_;
+  }
+
+ private:
+  void stand_in_middle(const Stretch& stretch) {
+    ++result_.evaluations;
+    checker_.place(between(a_, b_, stretch.at));
+    bounds_.set(stretch.half * (b_.q - a_.q).cwiseAbs(),
+                0.5 * stretch.half * std::abs(b_.opening - a_.opening));
+  }
+
+  /// How far a pair must be apart in the middle to stay apart on the stretch.
+  double needed(const PiecePair& pair) {
+    return options_.clearance + bounds_.approach(pair) * (1.0 + kRounding) + kRounding;
+  }
+
+  bool fail(EdgeStatus status, const PiecePair& pair, double distance, double at) {
+    result_.status = status;
+    result_.hit = checker_.hit(pair, distance);
+    result_.at = at;
+    return false;
+  }
+
+  bool is_end_free(double end) {
+    ++result_.evaluations;
+    checker_.place(end == 0.0 ? a_ : b_);
+    bool free = true;
+    checker_.visit_near([this](const PiecePair&) { return options_.clearance; },
+                        [&](const PiecePair& pair) {
+                          const double distance =
+                              checker_.distance(pair, options_.clearance, options_.clearance);
+                          if (distance <= options_.clearance) {
+                            free = fail(EdgeStatus::Colliding, pair, distance, end);
+                          }
+                          return !free;
+                        });
+    return free;
+  }
+
+  /// Collects the pairs that are not proved on the whole edge at once.
+  bool look_at_whole(Stretch& whole) {
+    stand_in_middle(whole);
+    bool go_on = true;
+    checker_.visit_near([this](const PiecePair& pair) { return needed(pair); },
+                        [&](const PiecePair& pair) {
+                          go_on = settle(whole, pair);
+                          return !go_on;
+                        });
+    return go_on;
+  }
+
+  /// Leaves in the stretch the pairs that are not proved on it. @return false if the edge has
+  /// failed
+  bool prove(Stretch& stretch) {
+    const std::vector<PiecePair> pairs = std::move(stretch.pairs);
+    stretch.pairs.clear();
+    for (const PiecePair& pair : pairs) {
+      if (checker_.rough_distance(pair) > needed(pair)) continue;
+      if (!settle(stretch, pair)) return false;
+    }
+    return true;
+  }
+
+  bool settle(Stretch& stretch, const PiecePair& pair) {
+    const double enough = needed(pair);
+    const double distance = checker_.distance(pair, options_.clearance, enough);
+    if (distance > enough) return true;
+    if (distance <= options_.clearance)
+      return fail(EdgeStatus::Colliding, pair, distance, stretch.at);
+    if (2.0 * bounds_.approach(pair) <= options_.resolution) {
+      return fail(EdgeStatus::GivenUp, pair, distance, stretch.at);
+    }
+    stretch.pairs.push_back(pair);
+    return true;
+  }
+
+  static void split(const Stretch& stretch, std::deque<Stretch>& open) {
+    if (stretch.pairs.empty()) return;
+    const double half = 0.5 * stretch.half;
+    open.push_back({stretch.at - half, half, stretch.pairs});
+    open.push_back({stretch.at + half, half, stretch.pairs});
+  }
+
+  CollisionChecker::Impl& checker_;
+  MotionBounds bounds_;
+  const Configuration& a_;
+  const Configuration& b_;
+  const CertificateOptions& options_;
+  EdgeResult result_;
+};
+
+}  // namespace
+
+EdgeResult certify_edge(CollisionChecker& checker, const Configuration& a, const Configuration& b,
+                        const CertificateOptions& options) {
+  require_edge(checker.impl(), a, b, options);
+  return EdgeProof(checker.impl(), a, b, options).run();
+}
+
+EdgeResult certify_path(CollisionChecker& checker, const std::vector<Configuration>& path,
+                        const CertificateOptions& options) {
+  if (path.empty()) throw InvalidInput("E_EMPTY", "path", "has no configuration");
+  EdgeResult total;
+  if (path.size() == 1) return certify_edge(checker, path.front(), path.front(), options);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    EdgeResult edge = certify_edge(checker, path[i], path[i + 1], options);
+    edge.evaluations += total.evaluations;
+    total = std::move(edge);
+    if (total.is_free()) continue;
+    total.at += static_cast<double>(i);
+    return total;
+  }
+  return total;
+}
+
+double motion_bound(CollisionChecker& checker, const Configuration& a, const Configuration& b) {
+  CollisionChecker::Impl& impl = checker.impl();
+  require_edge(impl, a, b, {});
+  impl.place(between(a, b, 0.5));
+  MotionBounds bounds(impl);
+  bounds.set(0.5 * (b.q - a.q).cwiseAbs(), 0.25 * std::abs(b.opening - a.opening));
+  double most = 0.0;
+  for (int m = 0; m < static_cast<int>(impl.movers.size()); ++m) {
+    double mover = 0.0;
+    const int pieces =
+        static_cast<int>(impl.movers[static_cast<std::size_t>(m)].geometry->pieces.size());
+    for (int p = 0; p < pieces; ++p) mover = std::max(mover, bounds.piece_motion(m, p));
+    most = std::max(most, mover);
+  }
+  return 2.0 * most;
+}
+
+}  // namespace handey

@@ -1,0 +1,37 @@
+// The collision geometry of a cell: pieces of the robot's bodies, the fixtures and the parts, and
+// which robot bodies are checked against each other. Poses are not in it: a checker places the
+// pieces.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "handey/collision/checker.hpp"
+#include "piece.hpp"
+
+namespace handey::collision {
+
+/// All pieces of a body and the ball round them, body frame.
+struct BodyGeometry {
+  std::string name;
+  Pieces pieces;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+};
+
+}  // namespace handey::collision
+
+namespace handey {
+
+class CollisionModel {
+ public:
+  std::shared_ptr<const Robot> robot;
+  std::vector<collision::BodyGeometry> robot_bodies, fixtures, parts;
+  std::vector<std::pair<int, int>>
+      self_pairs;               ///< robot bodies that are checked against each other
+  std::vector<int> depth;       ///< how many arm joints move each robot body
+  std::vector<char> is_finger;  ///< of each robot body
+};
+
+}  // namespace handey

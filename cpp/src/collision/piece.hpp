@@ -1,0 +1,72 @@
+// A piece: what the collision room makes of one shape, or of one connected piece of a mesh. Boxes,
+// cylinders, spheres and convex solids keep an exact support function; other meshes keep their
+// surface and, if closed, what is inside it. Errs on the near side: next to a mesh that is not
+// convex, cylinders and spheres count as 32-sided polyhedra that contain them.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "convex_distance.hpp"
+#include "handey/geometry/shape.hpp"
+#include "mesh_distance.hpp"
+#include "surface_tree.hpp"
+
+namespace handey::collision {
+
+/// A box in any direction.
+struct OrientedBox {
+  Pose X_BO = Pose::Identity();                    ///< box frame (origin at its centre) in the body
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// The small oriented box round points: of body axes, principal axes and those of the mesh's
+/// largest triangles.
+OrientedBox oriented_box(const TriangleMesh& mesh);
+
+/// A piece as triangles, with what is needed to measure against them.
+struct Polyhedral {
+  explicit Polyhedral(TriangleMesh triangles);
+  TriangleMesh mesh;
+  std::shared_ptr<const SurfaceModel> surface;
+  SurfaceTree tree;
+  std::vector<Eigen::Vector3d> seeds;  ///< one vertex of each connected piece of the surface [m]
+};
+
+/// Immutable once made; shared between threads.
+class Piece {
+ public:
+  bool convex = true;
+  bool solid = true;    ///< what is inside it collides
+  ConvexSolid hull;     ///< the piece if convex, else the box that contains it
+  OrientedBox box;      ///< contains the piece, body frame
+  double radius = 0.0;  ///< of the ball round the box's centre that contains the piece [m]
+  Shape shape;          ///< box, cylinder, sphere, or the mesh in the body frame
+
+  /// The piece as triangles in the body frame, made when first asked for.
+  const Polyhedral& polyhedral() const;
+
+ private:
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<Polyhedral> polyhedral_;
+};
+
+using Pieces = std::vector<std::shared_ptr<const Piece>>;
+
+/// @throws InvalidInput for shapes that are wrong
+Pieces make_pieces(const std::vector<Shape>& shapes, const std::string& place);
+
+/// Lower bound of the distance of two pieces; same terms as convex_distance.
+double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Pose& X_WB,
+                      double least, double enough);
+
+/// Distance of a ball from a box; 0 or less where they overlap [m].
+inline double ball_to_box(const Eigen::Vector3d& centre, double radius, const Pose& X_WO,
+                          const Eigen::Vector3d& half) {
+  const Eigen::Vector3d local = X_WO.linear().transpose() * (centre - X_WO.translation());
+  return (local.cwiseAbs() - half).cwiseMax(0.0).norm() - radius;
+}
+
+}  // namespace handey::collision
