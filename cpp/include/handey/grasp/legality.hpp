@@ -1,6 +1,9 @@
-// Grasp poses at which hand and arm are legal at both ends: inverse kinematics within limits and no collision with the hand
-// open at the origin, and with the hand open at the destination (T moves the hand with the part).
-// Article: the conditions that a grasp must meet at pick-up and at put-down.
+// Grasp poses at which hand and arm are legal at both ends: enough of the pads on the faces,
+// inverse kinematics within limits, and no collision with the hand open and with the hand closed,
+// at the origin and at the destination (T moves the hand with the part). The part stands there as
+// an obstacle for palm, arm and open fingers; closed fingers may touch it only by the pads.
+// Complete only for the candidates: targets x directions x the hand's two half-turns x pads drawn
+// back from the target. Article: the conditions that a grasp must meet at pick-up and at put-down.
 #pragma once
 
 #include <memory>
@@ -13,7 +16,8 @@
 
 namespace handey {
 
-/// A pick-and-place to plan: the cell with the part at its origin and an empty hand, and where the part is to go.
+/// A pick-and-place to plan: the cell with the part at its origin and an empty hand, and where the
+/// part is to go.
 struct GraspScene {
   std::shared_ptr<const CollisionModel> model;
   Cell cell;
@@ -22,39 +26,52 @@ struct GraspScene {
 };
 
 struct LegalityOptions {
-  int directions = 24;            ///< approach directions per target
-  double open_clearance = 0.008;  ///< the open pads stand this far from the faces, each side, where the jaw allows [m]
-  double clearance = 3e-4;        ///< of the whole robot [m]
-  double least_contact_share = 0.3;   ///< of the pad on the unobstructed area
-  int most_poses = 64;            ///< returned per pair
+  int directions =
+      24;  ///< approach directions per target, evenly spaced; those along edges come on top
+  double open_clearance = 0.008;  ///< the open pads stand this far from the faces, each side, where
+                                  ///< jaw and neighbours allow; else half, then a quarter of it [m]
+  double clearance = 3e-4;  ///< of the whole robot [m]
+  double least_contact_share =
+      0.3;  ///< of the pad on the unobstructed area; where no pad can have that, 80 % of the
+            ///< best; never under 15 % of the pad or 30 mm2
+  int most_poses = 16;  ///< returned per pair; then the search stops
 };
 
 /// A grasp pose with all the configurations that are legal for it.
 struct GraspPose {
   PlanarPose in_plane;
   bool flipped = false;
-  Pose X_PH = Pose::Identity();             ///< grasp frame in the part
-  double width = 0.0;                       ///< opening when closed on the part [m]
-  double opening = 0.0;                     ///< opening while approaching [m]
-  double contact_area = 0.0;                ///< of a pad on the unobstructed area [m2]
-  double merit = 0.0;                       ///< larger is better
-  std::vector<Eigen::VectorXd> q_pick;      ///< legal configurations at the origin, hand open
-  std::vector<Eigen::VectorXd> q_place;     ///< at the destination
+  Pose X_PH = Pose::Identity();  ///< grasp frame in the part
+  double width = 0.0;            ///< opening when closed on the part [m]
+  double opening = 0.0;          ///< opening while approaching [m]
+  double contact_area = 0.0;     ///< of a pad on the unobstructed area [m2]
+  /// Larger is better, 0..1. Choice: 0.35 contact (of what a pad can have) + 0.25 closeness of the
+  /// pad to the centre of mass, 1 / (1 + distance / pad length) + 0.20 joint margin (0.35 rad from
+  /// a limit or 0.3 from a singularity is full, the worse end counts) + 0.10 approach from above
+  /// (mean of both ends) + 0.10 direction along an edge.
+  double merit = 0.0;
+  std::vector<Eigen::VectorXd>
+      q_pick;  ///< legal at the origin, soonest reached from the cell's start first
+  std::vector<Eigen::VectorXd> q_place;  ///< at the destination, likewise
 };
 
 struct LegalGrasps {
-  std::vector<GraspPose> poses;             ///< best merit first
+  std::vector<GraspPose> poses;  ///< best merit first
   // How many candidates fell, and where:
   int tried = 0, too_little_contact = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
       collides_at_origin = 0, collides_at_destination = 0;
-  std::string worst_reason;                 ///< the reason met most often, with names and numbers
+  std::string worst_reason;  ///< met most often: "gripper hits table (destination): 14 of 48";
+                             ///< empty if none fell
 };
 
-LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver, const RankedPair& pair,
-                              const LegalityOptions& options = {});
+/// Candidates are tested in the order of the part of their merit that costs nothing to know.
+/// @throws InvalidInput (E_REF, E_RANGE, E_NUMBER, E_MISSING)
+LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
+                              const RankedPair& pair, const LegalityOptions& options = {});
 
 /// Is the hand pose `pose` of this pair legal at both ends? One pose in, at most one out.
-LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver& solver, const RankedPair& pair,
-                            const PlanarPose& pose, bool flipped, const LegalityOptions& options = {});
+LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver& solver,
+                            const RankedPair& pair, const PlanarPose& pose, bool flipped,
+                            const LegalityOptions& options = {});
 
 }  // namespace handey

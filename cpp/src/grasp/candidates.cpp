@@ -1,0 +1,155 @@
+// Candidate hand poses of one pair: targets x directions x pads drawn back from the target, so that
+// a long finger tip or a palm finds room where the pad in full depth does not.
+#include "candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "obstruction.hpp"
+
+namespace handey::grasp {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// How far the pad is drawn back from the target, in pad lengths. Choice: to where a quarter of the
+// pad is left on a target at the very edge.
+constexpr double kDrawnBack[] = {0.0, 0.2, 0.4, 0.6};
+
+double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * kPi)); }
+
+// Directions of the longest edges of the overlap (at most three different ones), in [0, pi).
+std::vector<double> edge_directions(const Region& overlap) {
+  struct Edge {
+    double length, angle;
+  };
+  std::vector<Edge> edges;
+  for (const Polygon& loop : overlap.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Eigen::Vector2d edge = loop[(i + 1) % loop.size()] - loop[i];
+      if (edge.norm() < 1e-6) continue;
+      edges.push_back({edge.norm(), std::atan2(edge.y(), edge.x())});
+    }
+  }
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const Edge& a, const Edge& b) { return a.length > b.length + 1e-9; });
+  std::vector<double> directions;
+  for (const Edge& edge : edges) {
+    if (directions.size() == 3) break;
+    const bool is_new = std::none_of(directions.begin(), directions.end(), [&](double known) {
+      return std::abs(std::remainder(edge.angle - known, kPi)) < 0.02;
+    });
+    if (is_new) directions.push_back(edge.angle);
+  }
+  return directions;
+}
+
+// Along and normal to the edges first, then evenly spaced ones that are not nearly the same.
+std::vector<double> approach_directions(const RankedPair& pair, int count) {
+  std::vector<double> directions;
+  const auto add = [&](double theta, double least_apart) {
+    const bool is_new = std::none_of(directions.begin(), directions.end(), [&](double known) {
+      return turn_between(theta, known) < least_apart;
+    });
+    if (is_new) directions.push_back(std::remainder(theta, 2.0 * kPi));
+  };
+  const std::vector<double> edges = edge_directions(pair.pair.overlap);
+  for (const double edge : edges) {
+    for (int quarter = 0; quarter < 4; ++quarter) add(edge + 0.5 * kPi * (quarter + 1), 0.02);
+  }
+  const double first = edges.empty() ? 0.0 : edges.front();
+  const double spacing = 2.0 * kPi / std::max(1, count);
+  for (int i = 0; i < count; ++i) add(first + i * spacing, 0.4 * spacing);
+  return directions;
+}
+
+// Is a finger, from its tip back over the pad's length, beside something that stands in its layer?
+bool is_blocked(const RankedPair& pair, const PlanarPose& pose, const FingerExtent& finger,
+                const Gripper& gripper) {
+  if (pair.blocked.empty()) return false;
+  Gripper footprint = gripper;
+  const double back = std::max(finger.back, -1.5 * gripper.pad_length);
+  footprint.pad_width = 2.0 * finger.half_width;
+  footprint.pad_length = finger.tip - back;
+  PlanarPose middle = pose;
+  middle.x += 0.5 * (finger.tip + back) * std::cos(pose.theta);
+  middle.y += 0.5 * (finger.tip + back) * std::sin(pose.theta);
+  return pad_contact_area(pair.blocked, middle, footprint) > 1e-9;
+}
+
+}  // namespace
+
+ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
+                             const LegalityOptions& options) {
+  const double pad_area = gripper.pad_width * gripper.pad_length;
+  ContactDemand demand;
+  for (const Eigen::Vector2d& target : pair.targets) {
+    for (const double theta : approach_directions(pair, 8)) {
+      demand.best =
+          std::max(demand.best,
+                   pad_contact_area(pair.unobstructed, {target.x(), target.y(), theta}, gripper));
+    }
+  }
+  demand.required = std::max(std::min(options.least_contact_share * pad_area, 0.8 * demand.best),
+                             std::min(0.15 * pad_area, 30e-6));
+  return demand;
+}
+
+bool is_along_edge(const RankedPair& pair, double theta) {
+  for (const double edge : edge_directions(pair.pair.overlap)) {
+    if (std::abs(std::remainder(theta - edge, 0.5 * kPi)) < 0.01) return true;
+  }
+  return false;
+}
+
+double planar_merit(const RankedPair& pair, const Gripper& gripper, const PlanarPose& pose,
+                    double contact_area, bool along_edge, const Eigen::Vector2d& down_in_G,
+                    const ContactDemand& demand) {
+  const double contact = demand.best > 0.0 ? std::min(1.0, contact_area / demand.best) : 0.0;
+  const double lever = (Eigen::Vector2d(pose.x, pose.y) - pair.centre_of_mass).norm();
+  const Eigen::Vector2d direction(std::cos(pose.theta), std::sin(pose.theta));
+  const double from_above = 0.5 * (1.0 + direction.dot(down_in_G));
+  return 0.35 * contact + 0.25 / (1.0 + lever / gripper.pad_length) + 0.10 * from_above +
+         (along_edge ? 0.10 : 0.0);
+}
+
+CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
+                              const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
+                              const LegalityOptions& options) {
+  const Gripper& gripper = robot.gripper;
+  const FingerExtent finger = finger_extent(robot);
+  CandidateList list;
+  const std::vector<double> directions = approach_directions(pair, options.directions);
+  int group = 0;
+  for (const Eigen::Vector2d& target : pair.targets) {
+    for (const double theta : directions) {
+      const bool along_edge = is_along_edge(pair, theta);
+      for (const double share : kDrawnBack) {
+        const double back = share * gripper.pad_length;
+        Candidate candidate;
+        candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
+                          theta};
+        candidate.contact_area = pad_contact_area(pair.unobstructed, candidate.pose, gripper);
+        ++list.tried;
+        if (candidate.contact_area < demand.required) {
+          ++list.too_little_contact;
+          continue;
+        }
+        candidate.along_edge = along_edge;
+        candidate.group = group;
+        candidate.promise = planar_merit(pair, gripper, candidate.pose, candidate.contact_area,
+                                         along_edge, down_in_G, demand);
+        // Choice: a pose whose fingers seem blocked is kept (the blocked region errs on the large
+        // side) but comes after all the others.
+        if (is_blocked(pair, candidate.pose, finger, gripper)) candidate.promise -= 1.0;
+        list.candidates.push_back(candidate);
+      }
+      ++group;
+    }
+  }
+  std::stable_sort(
+      list.candidates.begin(), list.candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.promise > b.promise + 1e-12; });
+  return list;
+}
+
+}  // namespace handey::grasp

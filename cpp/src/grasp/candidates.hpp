@@ -1,0 +1,46 @@
+// Candidate hand poses of one pair, cheapest knowledge first: contact, lever, direction.
+#pragma once
+
+#include <vector>
+
+#include "handey/grasp/legality.hpp"
+
+namespace handey::grasp {
+
+/// The pad areas that decide whether a pose has enough contact.
+struct ContactDemand {
+  double best = 0.0;      ///< what a pad can have on this pair [m2]
+  double required = 0.0;  ///< [m2]
+};
+ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
+                             const LegalityOptions& options);
+
+struct Candidate {
+  PlanarPose pose;
+  double contact_area = 0.0;  ///< [m2]
+  bool along_edge = false;    ///< approach normal or parallel to a long edge of the overlap
+  double promise = 0.0;  ///< the part of the merit known without the arm, less for blocked fingers
+  int group = 0;         ///< candidates that differ only by how far the pad is drawn back
+};
+
+struct CandidateList {
+  std::vector<Candidate> candidates;  ///< most promising first
+  int tried = 0;
+  int too_little_contact = 0;
+};
+
+/// @param down_in_G  mean over both ends of the world's downward direction in G: the approach from
+/// above
+CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
+                              const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
+                              const LegalityOptions& options);
+
+/// The part of the merit that needs no arm, 0..0.8.
+double planar_merit(const RankedPair& pair, const Gripper& gripper, const PlanarPose& pose,
+                    double contact_area, bool along_edge, const Eigen::Vector2d& down_in_G,
+                    const ContactDemand& demand);
+
+/// True if theta is along or normal to one of the overlap's long edges.
+bool is_along_edge(const RankedPair& pair, double theta);
+
+}  // namespace handey::grasp

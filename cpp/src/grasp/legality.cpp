@@ -1,0 +1,151 @@
+// Legal grasps of a pair: candidates in the order of their promise, until enough are legal.
+#include "handey/grasp/legality.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "candidates.hpp"
+#include "pose_test.hpp"
+#include "ranges.hpp"
+
+namespace handey {
+namespace {
+
+void require_valid_input(const GraspScene& scene, const RankedPair& pair,
+                         const LegalityOptions& options) {
+  if (!scene.model) throw InvalidInput("E_MISSING", "scene.model", "is missing");
+  if (!scene.cell.robot) throw InvalidInput("E_MISSING", "scene.cell.robot", "is missing");
+  grasp::require_in_range(scene.part, 0, static_cast<double>(scene.cell.parts.size()) - 1,
+                          "scene.part");
+  if (scene.cell.held) {
+    throw InvalidInput("E_RANGE", "scene.cell.held", "holds a part, expected an empty hand");
+  }
+  require_rigid(scene.X_WP_goal, "scene.X_WP_goal");
+  require_rigid(pair.pair.X_PG, "pair.X_PG");
+  grasp::require_in_range(pair.pair.width, 0.0, 10.0, "pair.width");
+  grasp::require_in_range(options.directions, 1, 3600, "legality.directions");
+  grasp::require_in_range(options.open_clearance, 0.0, 0.5, "legality.open_clearance");
+  grasp::require_in_range(options.clearance, 0.0, 0.1, "legality.clearance");
+  grasp::require_in_range(options.least_contact_share, 0.0, 1.0, "legality.least_contact_share");
+  grasp::require_in_range(options.most_poses, 1, 100000, "legality.most_poses");
+}
+
+// The world's downward direction in the grasp plane, mean of both ends.
+Eigen::Vector2d down_in_plane(const GraspScene& scene, const RankedPair& pair) {
+  const Eigen::Vector3d down(0.0, 0.0, -1.0);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  const Pose& X_WP_origin = scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB;
+  for (const Pose& X_WP : {X_WP_origin, scene.X_WP_goal}) {
+    const Eigen::Matrix3d R_WG = X_WP.linear() * pair.pair.X_PG.linear();
+    const Eigen::Vector3d down_in_G = R_WG.transpose() * down;
+    sum += down_in_G.head<2>();
+  }
+  return 0.5 * sum;
+}
+
+void count(LegalGrasps& result, grasp::PoseVerdict verdict) {
+  switch (verdict) {
+    case grasp::PoseVerdict::Legal:
+      break;
+    case grasp::PoseVerdict::UnreachableAtOrigin:
+      ++result.unreachable_at_origin;
+      break;
+    case grasp::PoseVerdict::UnreachableAtDestination:
+      ++result.unreachable_at_destination;
+      break;
+    case grasp::PoseVerdict::CollidesAtOrigin:
+      ++result.collides_at_origin;
+      break;
+    case grasp::PoseVerdict::CollidesAtDestination:
+      ++result.collides_at_destination;
+      break;
+  }
+}
+
+void note_little_contact(grasp::Tally& tally, double contact, double required) {
+  tally.add("contact", "pads overlap the free faces by at most " +
+                           grasp::millimetres(contact * 1e3) + " mm2, " +
+                           grasp::millimetres(required * 1e3) + " mm2 are needed");
+}
+
+}  // namespace
+
+LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
+                              const RankedPair& pair, const LegalityOptions& options) {
+  require_valid_input(scene, pair, options);
+  const Gripper& gripper = scene.cell.robot->gripper;
+  const Eigen::Vector2d down = down_in_plane(scene, pair);
+  const grasp::ContactDemand demand = grasp::contact_demand(pair, gripper, options);
+  const grasp::CandidateList list =
+      grasp::make_candidates(pair, *scene.cell.robot, down, demand, options);
+
+  LegalGrasps result;
+  grasp::Tally tally;
+  // Contact does not depend on the hand's half-turn.
+  result.tried = result.too_little_contact = list.too_little_contact;
+  for (int i = 0; i < list.too_little_contact; ++i) {
+    note_little_contact(tally, demand.best, demand.required);
+  }
+  grasp::PoseTester tester(scene, solver, options);
+  std::set<std::pair<int, bool>> found;
+  for (const grasp::Candidate& candidate : list.candidates) {
+    for (const bool flipped : {false, true}) {
+      if (static_cast<int>(result.poses.size()) >= options.most_poses) break;
+      // Legal already, less drawn back.
+      if (found.count({candidate.group, flipped}) != 0) continue;
+      GraspPose pose;
+      pose.in_plane = candidate.pose;
+      pose.flipped = flipped;
+      pose.contact_area = candidate.contact_area;
+      ++result.tried;
+      const grasp::PoseVerdict verdict = tester.test(pair.pair, pose, tally);
+      count(result, verdict);
+      if (verdict != grasp::PoseVerdict::Legal) continue;
+      pose.merit += grasp::planar_merit(pair, gripper, pose.in_plane, pose.contact_area,
+                                        candidate.along_edge, down, demand);
+      found.insert({candidate.group, flipped});
+      result.poses.push_back(std::move(pose));
+    }
+  }
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const GraspPose& a, const GraspPose& b) { return a.merit > b.merit + 1e-9; });
+  result.worst_reason = tally.worst(result.tried);
+  return result;
+}
+
+LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver& solver,
+                            const RankedPair& pair, const PlanarPose& pose, bool flipped,
+                            const LegalityOptions& options) {
+  require_valid_input(scene, pair, options);
+  for (const double value : {pose.x, pose.y, pose.theta}) {
+    grasp::require_in_range(value, -1e3, 1e3, "pose");
+  }
+  const Gripper& gripper = scene.cell.robot->gripper;
+  const grasp::ContactDemand demand = grasp::contact_demand(pair, gripper, options);
+  LegalGrasps result;
+  result.tried = 1;
+  grasp::Tally tally;
+  GraspPose grasp_pose;
+  grasp_pose.in_plane = pose;
+  grasp_pose.flipped = flipped;
+  grasp_pose.contact_area = pad_contact_area(pair.unobstructed, pose, gripper);
+  if (grasp_pose.contact_area < demand.required) {
+    result.too_little_contact = 1;
+    note_little_contact(tally, grasp_pose.contact_area, demand.required);
+  } else {
+    const grasp::PoseVerdict verdict =
+        grasp::PoseTester(scene, solver, options).test(pair.pair, grasp_pose, tally);
+    count(result, verdict);
+    if (verdict == grasp::PoseVerdict::Legal) {
+      grasp_pose.merit += grasp::planar_merit(pair, gripper, pose, grasp_pose.contact_area,
+                                              grasp::is_along_edge(pair, pose.theta),
+                                              down_in_plane(scene, pair), demand);
+      result.poses.push_back(std::move(grasp_pose));
+    }
+  }
+  result.worst_reason = tally.worst(1);
+  return result;
+}
+
+}  // namespace handey

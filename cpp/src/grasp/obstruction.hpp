@@ -1,0 +1,49 @@
+// What stands in the layer outside a face that a finger fills: obstacles, projected on the grasp
+// plane.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "handey/grasp/ranking.hpp"
+
+namespace handey::grasp {
+
+/// Extent of the fingers about the pad, in the grasp frame.
+struct FingerExtent {
+  double thickness = 0.0;   ///< from the pad outwards, where the pad is [m]
+  double half_width = 0.0;  ///< greatest |x| [m]
+  double tip = 0.0;         ///< greatest z: from the pad's centre to the finger's end [m]
+  double back = 0.0;        ///< least z (negative) [m]
+};
+FingerExtent finger_extent(const Robot& robot);
+
+/// Frame of one side of a pair in the grasp plane's frame: z = outward normal of the face, x = x of
+/// G, origin where the axis of G pierces the face.
+Pose side_frame(const FacePair& pair, const PlanarFace& face, bool side_a);
+
+/// The part of each body that blocks the fingers beside one pair, and the part's own protrusions.
+class Obstruction {
+ public:
+  Obstruction(const Body& part, const std::vector<PlanarFace>& faces, double layer,
+              double clearance);
+
+  /// What of the part stands out beside the faces of the pair, in (x, y) of G; not grown.
+  Region own(const FacePair& pair);
+  /// What of the body blocks the layers of the pair, grown by the clearance, in (x, y) of G.
+  /// @param reach  bodies farther from the overlap than this are not looked at [m]
+  Region of_body(const FacePair& pair, const Body& body, const Pose& X_PB, double reach) const;
+
+ private:
+  Region own_on_face(int face);
+
+  const Body& part_;
+  const std::vector<PlanarFace>& faces_;
+  double layer_, clearance_;
+  bool part_is_convex_;
+  std::map<int, Region> own_;  // by face, in its plane: a face is in many pairs
+};
+
+}  // namespace handey::grasp

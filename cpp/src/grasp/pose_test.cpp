@@ -1,0 +1,203 @@
+// Tests of single hand poses at both ends, cheapest first: inverse kinematics at both, then
+// collision at both.
+#include "pose_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ranges.hpp"
+
+namespace handey::grasp {
+namespace {
+
+// Just before the pads touch, nothing but them may touch the part: then each stands off by this
+// [m]. Choice: what a contact may be deep; lower ribs on a face give way.
+constexpr double kStandOff = 5e-4;
+// Full marks for the margins [rad], [-].
+constexpr double kLimitMargin = 0.35, kSingularityMargin = 0.3;
+
+void add_names(std::set<std::string>& names, const RobotBody& body) {
+  names.insert(body.name);
+  names.insert(body.links.begin(), body.links.end());
+}
+
+}  // namespace
+
+void Tally::add(const std::string& kind, const std::string& text, double excess) {
+  Reason& reason = reasons_[kind];
+  if (reason.count == 0 || excess < reason.excess) {
+    reason.text = text;
+    reason.excess = excess;
+  }
+  ++reason.count;
+}
+
+std::string Tally::worst(int tried) const {
+  const Reason* worst = nullptr;
+  for (const auto& [kind, reason] : reasons_) {
+    if (worst == nullptr || reason.count > worst->count) worst = &reason;
+  }
+  if (worst == nullptr) return "";
+  return worst->text + ": " + std::to_string(worst->count) + " of " + std::to_string(tried);
+}
+
+PoseTester::End PoseTester::make_end(const GraspScene& scene, const Pose& X_WP, const char* label) {
+  const Cell cell = scene.cell.with_part_at(scene.part, X_WP);
+  Allowance closed;
+  closed.closed_on = scene.part;
+  return {label, cell.X_WR.inverse() * X_WP, CollisionChecker(scene.model, cell),
+          CollisionChecker(scene.model, cell, closed)};
+}
+
+PoseTester::PoseTester(const GraspScene& scene, const SphericalWristSolver& solver,
+                       const LegalityOptions& options)
+    : scene_(scene),
+      solver_(solver),
+      options_(options),
+      origin_(
+          make_end(scene, scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB, "origin")),
+      destination_(make_end(scene, scene.X_WP_goal, "destination")) {
+  const Robot& robot = *scene.cell.robot;
+  for (const RobotBody& body : robot.bodies) add_names(robot_links_, body);
+  for (const FingerJoint& finger : robot.gripper.fingers) {
+    add_names(finger_links_, robot.bodies[static_cast<std::size_t>(finger.child)]);
+  }
+  hand_links_ = finger_links_;
+  add_names(hand_links_, robot.bodies[static_cast<std::size_t>(robot.gripper.body)]);
+}
+
+std::vector<double> PoseTester::openings(double width) const {
+  const double greatest = scene_.cell.robot->gripper.max_opening;
+  std::vector<double> openings;
+  for (const double share : {1.0, 0.5, 0.25}) {
+    const double opening = std::min(greatest, width + 2.0 * share * options_.open_clearance);
+    if (openings.empty() || opening < openings.back() - 1e-6) openings.push_back(opening);
+  }
+  return openings;
+}
+
+std::vector<InverseSolution> PoseTester::inverse(const End& end, const Pose& X_PH,
+                                                 Tally& tally) const {
+  InverseResult result = solver_.solve(end.X_RP * X_PH);
+  if (result.solutions.empty()) {
+    const std::string kind = std::string(end.label) +
+                             std::to_string(static_cast<int>(result.status)) + "/" +
+                             std::to_string(result.joint);
+    tally.add(kind, result.reason + " (" + end.label + ")", result.excess);
+  }
+  return std::move(result.solutions);
+}
+
+std::optional<PoseTester::Obstacle> PoseTester::first_obstacle(CollisionChecker& checker,
+                                                               const Eigen::VectorXd& q,
+                                                               double opening) const {
+  const std::optional<Hit> hit = checker.find_hit({q, opening}, options_.clearance);
+  if (!hit) return std::nullopt;
+  const bool other_is_robot = robot_links_.count(hit->a) != 0 && robot_links_.count(hit->b) != 0;
+  const auto involves = [&](const std::set<std::string>& names) {
+    return !other_is_robot && (names.count(hit->a) != 0 || names.count(hit->b) != 0);
+  };
+  return Obstacle{*hit, involves(hand_links_), involves(finger_links_)};
+}
+
+std::vector<InverseSolution> PoseTester::collision_free(
+    End& end, const std::vector<InverseSolution>& solutions, const GraspPose& pose,
+    std::optional<Obstacle>& obstacle) {
+  std::vector<InverseSolution> free;
+  for (const InverseSolution& solution : solutions) {
+    std::optional<Obstacle> found = first_obstacle(end.free_hand, solution.q, pose.opening);
+    if (!found && free.empty()) {
+      // The hand is the same for every configuration of this pose: once is enough.
+      found = first_obstacle(end.free_hand, solution.q, pose.width + 2.0 * kStandOff);
+    }
+    if (!found) found = first_obstacle(end.closed_hand, solution.q, pose.width);
+    if (!found) {
+      free.push_back(solution);
+      continue;
+    }
+    obstacle = found;
+    if (found->of_hand && free.empty()) break;
+  }
+  return free;
+}
+
+double PoseTester::joint_margin(const InverseSolution& solution) const {
+  double from_limit = std::numeric_limits<double>::infinity();
+  const std::vector<ArmJoint>& joints = scene_.cell.robot->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const double value = solution.q[static_cast<Eigen::Index>(j)];
+    from_limit =
+        std::min({from_limit, value - joints[j].limit.lower, joints[j].limit.upper - value});
+  }
+  const double singular =
+      std::min({solution.margin.shoulder, solution.margin.elbow, solution.margin.wrist});
+  return std::clamp(std::min(from_limit / kLimitMargin, singular / kSingularityMargin), 0.0, 1.0);
+}
+
+double PoseTester::best_margin(const std::vector<InverseSolution>& solutions) const {
+  double best = 0.0;
+  for (const InverseSolution& solution : solutions) best = std::max(best, joint_margin(solution));
+  return best;
+}
+
+std::vector<Eigen::VectorXd> PoseTester::soonest_first(
+    const std::vector<InverseSolution>& solutions) const {
+  const std::vector<ArmJoint>& joints = scene_.cell.robot->joints;
+  const Eigen::VectorXd& start = scene_.cell.start.q;
+  std::vector<std::pair<double, const Eigen::VectorXd*>> timed;
+  for (const InverseSolution& solution : solutions) {
+    double time = 0.0;
+    for (Eigen::Index j = 0; j < solution.q.size() && j < start.size(); ++j) {
+      time = std::max(time, std::abs(solution.q[j] - start[j]) /
+                                joints[static_cast<std::size_t>(j)].limit.velocity);
+    }
+    timed.emplace_back(time, &solution.q);
+  }
+  std::stable_sort(timed.begin(), timed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
+  std::vector<Eigen::VectorXd> ordered;
+  for (const auto& [time, q] : timed) ordered.push_back(*q);
+  return ordered;
+}
+
+PoseVerdict PoseTester::test(const FacePair& pair, GraspPose& pose, Tally& tally) {
+  pose.X_PH = pair.X_PG * hand_in_plane(pose.in_plane, pose.flipped);
+  pose.width = pair.width_at({pose.in_plane.x, pose.in_plane.y});
+  const std::vector<InverseSolution> at_origin = inverse(origin_, pose.X_PH, tally);
+  if (at_origin.empty()) return PoseVerdict::UnreachableAtOrigin;
+  const std::vector<InverseSolution> at_destination = inverse(destination_, pose.X_PH, tally);
+  if (at_destination.empty()) return PoseVerdict::UnreachableAtDestination;
+
+  PoseVerdict verdict = PoseVerdict::CollidesAtOrigin;
+  for (const double opening : openings(pose.width)) {
+    pose.opening = opening;
+    std::optional<Obstacle> obstacle;
+    End* end = &origin_;
+    const std::vector<InverseSolution> pick = collision_free(*end, at_origin, pose, obstacle);
+    std::vector<InverseSolution> place;
+    if (!pick.empty()) {
+      end = &destination_;
+      obstacle.reset();
+      place = collision_free(*end, at_destination, pose, obstacle);
+    }
+    if (!place.empty()) {
+      pose.q_pick = soonest_first(pick);
+      pose.q_place = soonest_first(place);
+      pose.merit = 0.2 * std::min(best_margin(pick), best_margin(place));
+      return PoseVerdict::Legal;
+    }
+    verdict = end == &origin_ ? PoseVerdict::CollidesAtOrigin : PoseVerdict::CollidesAtDestination;
+    const bool narrower_helps = obstacle && obstacle->of_finger;
+    if (narrower_helps && opening > openings(pose.width).back() + 1e-6) continue;
+    if (obstacle) {
+      const std::string text =
+          obstacle->hit.a + " hits " + obstacle->hit.b + " (" + end->label + ")";
+      tally.add(text, text);
+    }
+    break;
+  }
+  return verdict;
+}
+
+}  // namespace handey::grasp

@@ -1,0 +1,143 @@
+// Ranks the pairs of a part: per pair, what is near at both ends is projected on the overlap and
+// taken off.
+#include "handey/grasp/ranking.hpp"
+
+#include <algorithm>
+
+#include "obstruction.hpp"
+#include "ranges.hpp"
+
+namespace handey {
+namespace {
+
+// Less than this of the overlap taken is not called obstructing [m2].
+constexpr double kNoArea = 1e-9;
+
+// Around the overlap, obstacles are looked for as far as the fingers reach about it [m]. Choice:
+// two pad lengths.
+double reach_of(const Gripper& gripper) { return 2.0 * gripper.pad_length; }
+
+void require_valid_input(const Cell& cell, int part, const Pose& X_WP_goal,
+                         const RankingOptions& options) {
+  if (!cell.robot) throw InvalidInput("E_MISSING", "robot", "is missing, expected a robot");
+  grasp::require_in_range(part, 0, static_cast<double>(cell.parts.size()) - 1, "part");
+  require_rigid(X_WP_goal, "X_WP_goal");
+  grasp::require_in_range(options.finger_clearance, 0.0, 0.1, "ranking.finger_clearance");
+  grasp::require_in_range(options.open_clearance, 0.0, 0.5, "ranking.open_clearance");
+  grasp::require_in_range(options.least_share, 0.0, 1.0, "ranking.least_share");
+  grasp::require_in_range(options.most_targets, 1, 1000, "ranking.most_targets");
+}
+
+class Ranker {
+ public:
+  Ranker(const Cell& cell, int part, const Pose& X_WP_goal, const FeaturePairs& features,
+         const RankingOptions& options)
+      : cell_(cell),
+        part_(cell.parts[static_cast<std::size_t>(part)]),
+        gripper_(cell.robot->gripper),
+        options_(options),
+        obstruction_(part_, features.faces,
+                     grasp::finger_extent(*cell.robot).thickness + options.open_clearance,
+                     options.finger_clearance),
+        nearby_(nearby_bodies(cell, part, X_WP_goal)),
+        p_centre_(centre_of_mass(part_)) {}
+
+  RankedPair rank(const FacePair& pair) {
+    RankedPair ranked;
+    ranked.pair = pair;
+    ranked.centre_of_mass = (pair.X_PG.inverse() * p_centre_).head<2>();
+    Region blocked = obstruction_.own(pair);
+    note(ranked, blocked, "the part itself");
+    blocked = unite({blocked, obstacles(ranked, false)});
+    ranked.unobstructed = subtract(pair.overlap, blocked);
+    ranked.share_at_origin = area(ranked.unobstructed) / pair.area;
+    if (options_.use_destination) {
+      blocked = unite({blocked, obstacles(ranked, true)});
+      ranked.unobstructed = subtract(pair.overlap, blocked);
+    }
+    ranked.blocked = std::move(blocked);
+    const double free_area = area(ranked.unobstructed);
+    ranked.share = free_area / pair.area;
+    ranked.score = ranked.share * std::min(1.0, free_area / pad_area());
+    return ranked;
+  }
+
+  // Enough for a contact: the least area that a pad must have on a face.
+  bool is_usable(const RankedPair& ranked) const {
+    return ranked.share >= options_.least_share &&
+           area(ranked.unobstructed) >= std::min(0.1 * pad_area(), 25e-6);
+  }
+
+  void choose_targets(RankedPair& ranked) const {
+    ranked.targets = fingertip_targets(ranked.unobstructed, ranked.centre_of_mass, gripper_,
+                                       options_.most_targets);
+  }
+
+ private:
+  Region obstacles(RankedPair& ranked, bool at_destination) const {
+    std::vector<Region> found;
+    for (const NearbyBody& near : nearby_) {
+      if (near.at_destination != at_destination) continue;
+      const Body& body = cell_.body(near.body);
+      Region region = obstruction_.of_body(ranked.pair, body, near.X_PB, reach_of(gripper_));
+      if (region.empty()) continue;
+      note(ranked, region, at_destination ? near.name + " (destination)" : near.name);
+      found.push_back(std::move(region));
+    }
+    return found.empty() ? Region{} : unite(found);
+  }
+
+  static void note(RankedPair& ranked, const Region& region, const std::string& name) {
+    if (region.empty() || area(intersect(ranked.pair.overlap, region)) < kNoArea) return;
+    ranked.obstructing.push_back(name);
+  }
+
+  double pad_area() const { return gripper_.pad_width * gripper_.pad_length; }
+
+  const Cell& cell_;
+  const Body& part_;
+  const Gripper& gripper_;
+  const RankingOptions& options_;
+  grasp::Obstruction obstruction_;
+  std::vector<NearbyBody> nearby_;
+  Eigen::Vector3d p_centre_;  // of mass, in the part
+};
+
+// Best first; equal to 1e-9 is equal, so that rounding does not decide.
+bool comes_before(const RankedPair& a, const RankedPair& b) {
+  if (std::abs(a.score - b.score) > 1e-9) return a.score > b.score;
+  const double area_a = a.share * a.pair.area, area_b = b.share * b.pair.area;
+  if (std::abs(area_a - area_b) > 1e-12) return area_a > area_b;
+  if (a.pair.face_a != b.pair.face_a) return a.pair.face_a < b.pair.face_a;
+  return a.pair.face_b < b.pair.face_b;
+}
+
+}  // namespace
+
+Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal, const FeaturePairs& features,
+                    const RankingOptions& options) {
+  require_valid_input(cell, part, X_WP_goal, options);
+  Ranking ranking;
+  ranking.faces = static_cast<int>(features.faces.size());
+  ranking.rejected = features.rejected;
+  Ranker ranker(cell, part, X_WP_goal, features, options);
+  for (const FacePair& pair : features.pairs) {
+    RankedPair ranked = ranker.rank(pair);
+    if (ranker.is_usable(ranked)) ranker.choose_targets(ranked);
+    // An area too narrow for any target holds no pad either.
+    (ranked.targets.empty() ? ranking.obstructed : ranking.ranked).push_back(std::move(ranked));
+  }
+  std::stable_sort(ranking.ranked.begin(), ranking.ranked.end(), comes_before);
+  std::stable_sort(ranking.obstructed.begin(), ranking.obstructed.end(), comes_before);
+  return ranking;
+}
+
+Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal,
+                    const RankingOptions& options) {
+  require_valid_input(cell, part, X_WP_goal, options);
+  const FeaturePairs features = find_feature_pairs(cell.parts[static_cast<std::size_t>(part)],
+                                                   cell.robot->gripper, options.features);
+  return rank_grasps(cell, part, X_WP_goal, features, options);
+}
+
+}  // namespace handey
