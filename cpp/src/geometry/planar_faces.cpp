@@ -227,12 +227,24 @@ class FaceFinder {
       loops.push_back(std::move(polygon));
     }
     face.region = region_of_loops(loops);
-    if (face.region.loops.size() > 1) face.region = close_seams(face.region);
+    if (may_have_seams(face.region)) face.region = close_seams(face.region);
     face.area = handey::area(face.region);
     return face;
   }
 
-  // Several loops may be one face cut by seams of no width where triangles do not share vertices.
+  // Where triangles meet along an edge but share no vertices, rounding leaves seams of no width:
+  // between loops or as a notch in one. One convex loop has none.
+  static bool may_have_seams(const Region& region) {
+    if (region.loops.size() != 1) return true;
+    const Polygon& loop = region.loops.front();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Eigen::Vector2d in = loop[(i + 1) % loop.size()] - loop[i];
+      const Eigen::Vector2d out = loop[(i + 2) % loop.size()] - loop[(i + 1) % loop.size()];
+      if (in.x() * out.y() - in.y() * out.x() < 0.0) return true;
+    }
+    return false;
+  }
+
   static Region close_seams(const Region& region) { return offset(offset(region, kSeam), -kSeam); }
 
   const TriangleMesh& mesh_;

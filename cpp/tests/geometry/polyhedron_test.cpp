@@ -202,6 +202,20 @@ TEST(PlanarFaces, TJunctionsLeaveNoSeam) {
   EXPECT_NEAR(largest_inscribed_circle(faces[0].region, 1e-5).radius, 0.05, 2e-5);
 }
 
+TEST(PlanarFaces, ATJunctionAtTheOutlineLeavesNoNotch) {
+  // A stepped outline: the narrow upper rectangle ends on the long side of the lower one, off it by
+  // rounding.
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0},   {0.1, 0, 0},   {0.1, 0.05, 0}, {0, 0.05, 0}, {0.08, 0.05 + 3e-7, 0},
+                   {0, 0.1, 0}, {0.08, 0.1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 4, 6}, {3, 6, 5}};
+  const std::vector<PlanarFace> faces = planar_faces(mesh);
+  ASSERT_EQ(faces.size(), 1u);
+  EXPECT_NEAR(faces[0].area, 0.009, 1e-7);
+  // Without closing, no circle larger than 0.025 m would fit into either rectangle.
+  EXPECT_GT(largest_inscribed_circle(faces[0].region, 1e-5).radius, 0.04);
+}
+
 TEST(PlanarFaces, SliverTrianglesJoinTheFaceThatTheyLieIn) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}, {0.05, -1e-9, 3e-9}};

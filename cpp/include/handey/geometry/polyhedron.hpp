@@ -64,7 +64,10 @@ struct PlanarFace {
   double area = 0.0;           ///< [m2]
   std::vector<int> triangles;  ///< indices of the triangles merged
 };
-/// Largest area first; ties by lowest triangle index, so the order is repeatable.
+/// Largest area first; ties by lowest triangle index, so the order is repeatable. Patches of one
+/// plane and one normal are one face with several outer loops, also where they do not touch
+/// (islands in an engraving, the two inner flanks of a plus): a pad may lie on both.
+/// `connected_parts` of the region tells them apart.
 std::vector<PlanarFace> planar_faces(const TriangleMesh& mesh,
                                      const PlanarFaceOptions& options = {});
 
