@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -114,8 +115,19 @@ void MotionGrid::fill(int layer, const Region& region) {
 }
 
 void MotionGrid::fill_interior(int layer, const Region& region) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Polygon& loop : region.loops) {
+    for (const Eigen::Vector2d& point : loop) {
+      low = std::min(low, point.y());
+      high = std::max(high, point.y());
+    }
+  }
+  if (!(high - low > cell_)) return;  // its border fills all the cells it meets
+  const auto row_at = [&](double y) {
+    return static_cast<int>(std::clamp((y - corner_.y()) / cell_, 0.0, side_ - 1.0));
+  };
   std::vector<std::pair<double, int>> crossings;  // x in cells, change of the winding number
-  for (int row = 0; row < side_; ++row) {
+  for (int row = row_at(low); row <= row_at(high); ++row) {
     const double y = corner_.y() + (row + 0.5) * cell_;
     crossings.clear();
     for (const Polygon& loop : region.loops) {

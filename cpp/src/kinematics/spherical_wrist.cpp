@@ -8,12 +8,12 @@
 // digits near 1.
 #include "handey/kinematics/spherical_wrist.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "arm_axes.hpp"
 #include "handey/errors.hpp"
 #include "numbers.hpp"
 #include "rotation.hpp"
@@ -24,7 +24,7 @@ using kinematics::across;
 using kinematics::angle_about;
 using kinematics::number_text;
 using kinematics::rotation_about;
-using kinematics::Vector6;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
 
@@ -36,6 +36,72 @@ constexpr double kRounding = 1e-11;  // deviations below need no refinement
 constexpr double kClamp = 1e-12;     // relative: rounding at the border of the reach
 constexpr double kSingular = 1e-9;   // margin below which two branches are one
 constexpr double kLimitTolerance = 1e-9;  // [rad], as in limit_violation
+
+struct Axes {
+  Eigen::Matrix<double, 3, 6> directions, points;
+  Pose X_RH_zero;
+};
+
+Axes axes_at_zero(const Robot& robot) {
+  Axes axes;
+  Pose X_RB = Pose::Identity();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const ArmJoint& joint = robot.joints[static_cast<std::size_t>(i)];
+    X_RB = X_RB * joint.X_PJ;
+    axes.directions.col(i) = (X_RB.linear() * joint.axis).normalized();
+    axes.points.col(i) = X_RB.translation();
+  }
+  axes.X_RH_zero = X_RB * robot.gripper.X_BH;
+  return axes;
+}
+
+/// The point nearest to the last three axes, least squares.
+Eigen::Vector3d wrist_centre(const Axes& axes) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 3; i < 6; ++i) {
+    const Eigen::Vector3d w = axes.directions.col(i);
+    const Eigen::Matrix3d projector = Eigen::Matrix3d::Identity() - w * w.transpose();
+    sum += projector;
+    right += projector * axes.points.col(i);
+  }
+  return sum.inverse() * right;
+}
+
+double distance_from_axis(const Axes& axes, Eigen::Index i, const Eigen::Vector3d& point) {
+  return across(axes.directions.col(i), point - axes.points.col(i)).norm();
+}
+
+double sine_between(const Axes& axes, Eigen::Index i, Eigen::Index j) {
+  return axes.directions.col(i).cross(axes.directions.col(j)).norm();
+}
+
+/// What keeps the arm from being of this kind; empty if nothing does.
+std::string objection(const Robot& robot) {
+  if (robot.joints.size() != 6) {
+    return "the arm has " + std::to_string(robot.joints.size()) + " joints; expected 6";
+  }
+  const Axes axes = axes_at_zero(robot);
+  if (sine_between(axes, 1, 2) > kParallelTolerance) {
+    return "axes 2 and 3 are " +
+           number_text(std::asin(std::min(1.0, sine_between(axes, 1, 2))), 3) +
+           " rad from parallel; expected parallel axes";
+  }
+  if (sine_between(axes, 0, 1) < 1e-3) return "axes 1 and 2 are parallel; expected them not to be";
+  if (sine_between(axes, 3, 4) < 1e-3) return "axes 4 and 5 are parallel; expected them not to be";
+  if (sine_between(axes, 4, 5) < 1e-3) return "axes 5 and 6 are parallel; expected them not to be";
+  const Eigen::Vector3d centre = wrist_centre(axes);
+  for (Eigen::Index i = 3; i < 6; ++i) {
+    const double miss = distance_from_axis(axes, i, centre);
+    if (miss > kMeetTolerance) {
+      return "axis " + std::to_string(i + 1) + " misses the wrist's centre by " +
+             number_text(miss, 3) + " m; expected axes 4, 5 and 6 to meet in a point";
+    }
+  }
+  if (distance_from_axis(axes, 1, axes.points.col(2)) < 1e-3) return "axes 2 and 3 are one line";
+  if (distance_from_axis(axes, 2, centre) < 1e-3) return "the wrist's centre lies on axis 3";
+  return {};
+}
 
 /// The turn of `angle` that is nearest to `reference`.
 double nearest_turn(double angle, double reference) {
@@ -63,6 +129,7 @@ struct SphericalWristSolver::Search {
   Pose motion;  // the hand's, from zero
   const Eigen::VectorXd* reference;
   InverseResult result;
+  bool out_of_reach = false, out_of_limits = false;
   double least_miss = std::numeric_limits<double>::infinity();  // [m]
   InverseStatus miss = InverseStatus::TooFar;
   double least_excess = std::numeric_limits<double>::infinity();  // [rad]
@@ -70,27 +137,26 @@ struct SphericalWristSolver::Search {
 
   double reference_of(Eigen::Index i) const { return reference ? (*reference)[i] : 0.0; }
   void note_miss(InverseStatus status, double metres) {
+    out_of_reach = true;
     if (metres >= least_miss) return;
     least_miss = metres;
     miss = status;
   }
 };
 
-bool SphericalWristSolver::is_supported(const Robot& robot) {
-  return kinematics::objection(robot).empty();
-}
+bool SphericalWristSolver::is_supported(const Robot& robot) { return objection(robot).empty(); }
 
 SphericalWristSolver::SphericalWristSolver(const Robot& robot) {
-  const std::string why_not = kinematics::objection(robot);
+  const std::string why_not = objection(robot);
   if (!why_not.empty()) {
     throw InvalidInput("E_KINEMATICS", "robot '" + robot.name + "'",
                        why_not + " (needed for the closed-form inverse)");
   }
-  const kinematics::ArmAxes axes = kinematics::axes_at_zero(robot);
+  const Axes axes = axes_at_zero(robot);
   directions_ = axes.directions;
   points_ = axes.points;
   X_HR_zero_ = axes.X_RH_zero.inverse();
-  wrist_centre_ = kinematics::wrist_centre(axes);
+  wrist_centre_ = wrist_centre(axes);
   for (const ArmJoint& joint : robot.joints) {
     names_.push_back(joint.name);
     limits_.push_back(joint.limit);
@@ -99,7 +165,10 @@ SphericalWristSolver::SphericalWristSolver(const Robot& robot) {
   forearm_ = across(directions_.col(2), wrist_centre_ - points_.col(2)).norm();
   right_angled_ = std::abs(directions_.col(3).dot(directions_.col(4))) < kClamp &&
                   std::abs(directions_.col(4).dot(directions_.col(5))) < kClamp;
-  exact_ = kinematics::is_exact(axes);
+  exact_ = sine_between(axes, 1, 2) < kRounding;
+  for (Eigen::Index i = 3; i < 6; ++i) {
+    exact_ = exact_ && distance_from_axis(axes, i, wrist_centre_) < kRounding;
+  }
 }
 
 InverseResult SphericalWristSolver::solve(const Pose& X_RH,
@@ -117,7 +186,7 @@ InverseResult SphericalWristSolver::solve(const Pose& X_RH,
   InverseResult& result = search.result;
   if (!result.solutions.empty()) {
     result.status = InverseStatus::Solved;
-  } else if (search.joint >= 0) {
+  } else if (search.out_of_limits) {
     result.status = InverseStatus::OutsideLimits;
     result.excess = search.least_excess;
     result.joint = search.joint;
@@ -211,66 +280,93 @@ void SphericalWristSolver::solve_wrist(const Position& position, Search& search)
     const Eigen::Matrix3d last = (rotation_about(w4, q[3]) * R5).transpose() * left;
     q[5] = angle_about(w6, w5, last * w5);
     const SingularityMargin margin{position.shoulder, position.elbow, std::min(1.0, sine)};
-    if (!exact_) q = kinematics::refine({directions_, points_, Pose::Identity()}, q, search.motion);
+    if (!exact_) q = refined(q, search.motion);
     add_wraps(q, position.branch + 4 * side, margin, search);
   }
-}
-
-/// The lowest turn of joint i within its limits, and how many more turns fit: negative if none
-/// does.
-int SphericalWristSolver::lowest_turn(Eigen::Index i, double angle, const Search& search,
-                                      double& lowest) const {
-  const JointLimit& limit = limits_[static_cast<std::size_t>(i)];
-  if (!std::isfinite(limit.lower) || !std::isfinite(limit.upper)) {
-    lowest = nearest_turn(angle, search.reference_of(i));
-    if (!search.reference && lowest <= -kPi) lowest += 2.0 * kPi;
-    return 0;
-  }
-  const double low = limit.lower - kLimitTolerance, high = limit.upper + kLimitTolerance;
-  lowest = angle + 2.0 * kPi * std::ceil((low - angle) / (2.0 * kPi));
-  return static_cast<int>(std::floor((high - lowest) / (2.0 * kPi)));
 }
 
 void SphericalWristSolver::add_wraps(const Vector6& q, int branch, const SingularityMargin& margin,
                                      Search& search) const {
   Vector6 lowest;
-  std::array<int, 6> turns{};
+  std::array<int, 6> turns;  // how many more full turns fit
   double worst = 0.0;
   int worst_joint = -1;
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    turns[at] = lowest_turn(i, q[i], search, lowest[i]);
+    const JointLimit& limit = limits_[static_cast<std::size_t>(i)];
+    const std::size_t at = static_cast<std::size_t>(i);
+    turns[at] = 0;
+    if (!std::isfinite(limit.lower) || !std::isfinite(limit.upper)) {
+      lowest[i] =
+          search.reference ? nearest_turn(q[i], search.reference_of(i)) : nearest_turn(q[i], 0.0);
+      if (!search.reference && lowest[i] <= -kPi) lowest[i] += 2.0 * kPi;
+      continue;
+    }
+    const double low = limit.lower - kLimitTolerance, high = limit.upper + kLimitTolerance;
+    lowest[i] = q[i] + 2.0 * kPi * std::ceil((low - q[i]) / (2.0 * kPi));
+    turns[at] = static_cast<int>(std::floor((high - lowest[i]) / (2.0 * kPi)));
     if (turns[at] >= 0) continue;
-    const double above = lowest[i] - limits_[at].upper;
-    const double below = limits_[at].lower - (lowest[i] - 2.0 * kPi);
-    if (std::min(above, below) <= worst) continue;
-    worst = std::min(above, below);
-    worst_joint = static_cast<int>(i);
+    const double above = lowest[i] - limit.upper, below = limit.lower - (lowest[i] - 2.0 * kPi);
+    if (std::min(above, below) > worst) {
+      worst = std::min(above, below);
+      worst_joint = static_cast<int>(i);
+    }
   }
-  if (worst_joint < 0) {
-    add_turns(lowest, turns, branch, margin, search);
-  } else if (worst < search.least_excess) {
-    search.least_excess = worst;
-    search.joint = worst_joint;
+  if (worst_joint >= 0) {
+    search.out_of_limits = true;
+    if (worst < search.least_excess) {
+      search.least_excess = worst;
+      search.joint = worst_joint;
+    }
+    return;
   }
-}
-
-void SphericalWristSolver::add_turns(const Vector6& lowest, const std::array<int, 6>& turns,
-                                     int branch, const SingularityMargin& margin,
-                                     Search& search) const {
   std::array<int, 6> k{};
   for (bool more = true; more;) {
     InverseSolution solution{lowest, branch, margin};
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < 6; ++i)
       solution.q[static_cast<Eigen::Index>(i)] += 2.0 * kPi * k[i];
-    }
     search.result.solutions.push_back(std::move(solution));
     more = false;
-    for (std::size_t i = 6; i-- > 0 && !more;) {  // count up, the last joint fastest
-      more = k[i] < turns[i];
-      k[i] = more ? k[i] + 1 : 0;
+    for (std::size_t i = 6; i-- > 0;) {  // count up, the last joint fastest
+      if (k[i] < turns[i]) {
+        ++k[i];
+        more = true;
+        break;
+      }
+      k[i] = 0;
     }
   }
+}
+
+Vector6 SphericalWristSolver::refined(const Vector6& start, const Pose& motion) const {
+  Vector6 q = start;
+  for (int step = 0; step < 3; ++step) {
+    Pose reached = Pose::Identity();
+    Eigen::Matrix<double, 6, 6> jacobian;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      const Eigen::Vector3d w = reached.linear() * directions_.col(i);
+      const Eigen::Vector3d p = reached * Eigen::Vector3d(points_.col(i));
+      jacobian.col(i) << p.cross(w), w;
+      const Eigen::Matrix3d turn = rotation_about(directions_.col(i), q[i]);
+      const Eigen::Vector3d point = points_.col(i);
+      Pose e = Pose::Identity();
+      e.linear() = turn;
+      e.translation() = point - turn * point;
+      reached = reached * e;
+    }
+    // The twist, about the origin of R, that takes what is reached to what is wanted.
+    const Pose rest = motion * reached.inverse();
+    const Eigen::AngleAxisd turn(rest.linear());
+    const Eigen::Vector3d omega = turn.angle() * turn.axis();
+    Vector6 twist;
+    twist << rest.translation() - 0.5 * omega.cross(rest.translation()), omega;
+    const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(jacobian);
+    const Vector6 change = lu.solve(twist);
+    // Near a singularity the step may be wild; the closed form is then the better answer.
+    if (!change.allFinite() || change.cwiseAbs().maxCoeff() > 1e-2) return q;
+    q += change;
+    if (change.cwiseAbs().maxCoeff() < 1e-13) break;
+  }
+  return q;
 }
 
 }  // namespace handey

@@ -43,12 +43,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& text, const std::string& 
   static std::mutex one_at_a_time;  // the log handler is global
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const Capture capture;
-  urdf::ModelInterfaceSharedPtr model;
-  try {
-    model = urdf::parseURDF(text);
-  } catch (const std::exception& error) {  // the parser's own exceptions, of several kinds
-    throw InvalidInput("E_URDF", file, std::string("cannot be parsed: ") + error.what());
-  }
+  urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
   if (!model) throw InvalidInput("E_URDF", file, "cannot be parsed: " + capture.text());
   return model;
 }

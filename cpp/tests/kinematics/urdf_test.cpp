@@ -261,13 +261,6 @@ TEST(BadUrdf, WithNumbersThatAreNone) {
                9);
   expect_fault(replaced(kUrdf, "<origin xyz=\"1 0 0\"/>", "<origin rpy=\"1 0\"/>"), "E_NUMBER", 9);
 }
-TEST(BadUrdf, InTheWrongUnit) {
-  expect_fault(replaced(kUrdf, "<origin xyz=\"1 0 0\"/>", "<origin xyz=\"432 0 0\"/>"), "E_RANGE",
-               9, "millimetres");
-  expect_fault(replaced(kUrdf, "<origin xyz=\"1 0 0\"/>", "<origin rpy=\"0 90 0\"/>"), "E_RANGE", 9,
-               "degrees");
-  expect_fault(replaced(kUrdf, "\"1 2 3\"", "\"100 200 300\""), "E_GEOMETRY", 3, "metres");
-}
 TEST(BadUrdf, WithLeftoversOfXacro) {
   expect_fault(replaced(kUrdf, "upper=\"2\"", "upper=\"${pi}\""), "E_XACRO", 8);
   expect_fault(replaced(kUrdf, "\"piece.obj\"", "\"$(find x)/piece.obj\""), "E_XACRO", 4);

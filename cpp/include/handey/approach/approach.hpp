@@ -15,8 +15,10 @@
 namespace handey {
 
 struct ApproachOptions {
-  double cell = 0.004;             ///< of the motion grid [m]
+  double cell = 0.004;             ///< of the motion grid; halved up to twice where the slide stalls [m]
   double run_in = 0.10;            ///< distance of the start from the grasp, along the approach [m]
+  double least_run_in = 0.04;      ///< shorter starts are tried down to this [m]
+  int most_slides = 8;             ///< slides from different starts; starts where the arm cannot stand do not count
   QuasipotentialOptions slide;
   LegalityOptions legality;
   CertificateOptions certificate;
@@ -28,14 +30,17 @@ enum class ApproachStatus { Found, StartBlocked, Stalled, PoorOverlap, IllegalAt
 
 struct ApproachResult {
   ApproachStatus status = ApproachStatus::Stalled;
-  std::string reason;                  ///< for people, with names and numbers
-  GraspPose grasp;                     ///< where the slide ended
+  std::string reason;                  ///< for people, with names and numbers; empty if found
+  GraspPose grasp;                     ///< where the slide ended; its q_pick is the path's last configuration alone
   std::vector<Configuration> path;     ///< certified, from the start to the grasp, hand open (opening constant)
-  SlideResult slide;                   ///< the raw slide in the grasp plane
+  SlideResult slide;                   ///< the raw slide in the grasp plane; the one that came nearest, if none arrived
   bool found() const { return status == ApproachStatus::Found; }
 };
 
 /// Slide from a start `run_in` away toward the grasp pose `aim`, with the arm in the branch of `q_pick` (one of aim.q_pick).
+/// Straight in first; then from nearer, then from starts turned about the fingertips by up to 90 degrees.
+/// @throws InvalidInput (E_RANGE, E_NUMBER, E_DOF, E_VALUE) for options out of range, a hand that is not empty, a q_pick
+///         that does not put the hand at `aim`
 ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver& solver, const RankedPair& pair,
                              const GraspPose& aim, const Eigen::VectorXd& q_pick, const ApproachOptions& options = {});
 

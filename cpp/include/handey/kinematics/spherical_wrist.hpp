@@ -7,7 +7,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -64,9 +63,8 @@ class SphericalWristSolver {
   void solve_wrist(const Position& position, Search& search) const;
   void add_wraps(const Eigen::Matrix<double, 6, 1>& q, int branch, const SingularityMargin& margin,
                  Search& search) const;
-  void add_turns(const Eigen::Matrix<double, 6, 1>& lowest, const std::array<int, 6>& turns,
-                 int branch, const SingularityMargin& margin, Search& search) const;
-  int lowest_turn(Eigen::Index i, double angle, const Search& search, double& lowest) const;
+  Eigen::Matrix<double, 6, 1> refined(const Eigen::Matrix<double, 6, 1>& q,
+                                      const Pose& motion) const;
 
   // The arm at zero, in the robot frame R.
   Eigen::Matrix<double, 3, 6> directions_;  ///< unit vectors along the joint axes
