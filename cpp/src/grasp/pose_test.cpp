@@ -67,6 +67,12 @@ PoseTester::PoseTester(const GraspScene& scene, const SphericalWristSolver& solv
   add_names(hand_links_, robot.bodies[static_cast<std::size_t>(robot.gripper.body)]);
 }
 
+// Hits name a body by its first link, which for the hand may be the arm's last.
+std::string PoseTester::display_name(const std::string& name) const {
+  const Robot& robot = *scene_.cell.robot;
+  return name == robot.bodies[static_cast<std::size_t>(robot.gripper.body)].name ? "hand" : name;
+}
+
 std::vector<double> PoseTester::openings(double width) const {
   const double greatest = scene_.cell.robot->gripper.max_opening;
   std::vector<double> openings;
@@ -191,8 +197,8 @@ PoseVerdict PoseTester::test(const FacePair& pair, GraspPose& pose, Tally& tally
     const bool narrower_helps = obstacle && obstacle->of_finger;
     if (narrower_helps && opening > openings(pose.width).back() + 1e-6) continue;
     if (obstacle) {
-      const std::string text =
-          obstacle->hit.a + " hits " + obstacle->hit.b + " (" + end->label + ")";
+      const std::string text = display_name(obstacle->hit.a) + " hits " +
+                               display_name(obstacle->hit.b) + " (" + end->label + ")";
       tally.add(text, text);
     }
     break;

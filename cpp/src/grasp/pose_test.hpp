@@ -73,6 +73,7 @@ class PoseTester {
   double best_margin(const std::vector<InverseSolution>& solutions) const;
   std::vector<Eigen::VectorXd> soonest_first(const std::vector<InverseSolution>& solutions) const;
   std::vector<double> openings(double width) const;
+  std::string display_name(const std::string& name) const;
 
   const GraspScene& scene_;
   const SphericalWristSolver& solver_;

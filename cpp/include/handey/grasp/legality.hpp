@@ -30,7 +30,7 @@ struct LegalityOptions {
       24;  ///< approach directions per target, evenly spaced; those along edges come on top
   double open_clearance = 0.008;  ///< the open pads stand this far from the faces, each side, where
                                   ///< jaw and neighbours allow; else half, then a quarter of it [m]
-  double clearance = 3e-4;  ///< of the whole robot [m]
+  double clearance = 3e-4;        ///< of the whole robot [m]
   double least_contact_share =
       0.3;  ///< of the pad on the unobstructed area; where no pad can have that, 80 % of the
             ///< best; never under 15 % of the pad or 30 mm2
@@ -60,7 +60,7 @@ struct LegalGrasps {
   // How many candidates fell, and where:
   int tried = 0, too_little_contact = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
       collides_at_origin = 0, collides_at_destination = 0;
-  std::string worst_reason;  ///< met most often: "gripper hits table (destination): 14 of 48";
+  std::string worst_reason;  ///< met most often: "hand hits table (destination): 14 of 48";
                              ///< empty if none fell
 };
 
