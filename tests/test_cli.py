@@ -278,7 +278,7 @@ def test_view_writes_a_page_with_or_without_a_plan(workshop, capsys):
     assert cli.main(["view", "cell.yaml", "p.json", "-o", "my.html"]) == 0
     (_, nothing, page), (_, plan, named) = workshop.pages
     assert nothing is None and page == Path("cell.html")
-    assert plan.joints == ("a",) and named == Path("my.html")
+    assert plan == "p.json" and named == Path("my.html")
     assert capsys.readouterr().out == "page: cell.html\npage: my.html\n"
 
 

@@ -24,7 +24,6 @@ from handey.terminal import complain, one_line, tell, warn
 if TYPE_CHECKING:
     from handey.cell_file import CellFile
     from handey.check import CheckReport
-    from handey.plan import Plan
     from handey.planner import PlanResult
 
 __all__ = ["check_command", "plan_command", "view_command", "within"]
@@ -154,18 +153,19 @@ def view_command(options: argparse.Namespace) -> int:
     output = Path(options.output or Path(options.cell).with_suffix(".html").name)
     require_writable(output)
     _keep_inputs([options.cell, options.plan], output)
-    plan: Plan | None = None
-    if options.plan is not None:
-        from handey.plan import Plan as PlanFile
-
-        plan = PlanFile.load(options.plan)
     from handey.cell_file import load_cell
+    from handey.plan import Plan
 
-    cell = load_cell(options.cell)
-    warn(options, cell.warnings)
+    warn(options, load_cell(options.cell).warnings)
+    if options.plan is not None:
+        Plan.load(options.plan)
     from handey.view import write_page
 
-    write_page(cell, plan, output)
+    try:
+        write_page(options.cell, options.plan, output)
+    except OSError as error:
+        message = f"cannot be written: {error.strerror or error}"
+        raise InvalidInput(Fault("E_OUTPUT", "", message, str(output))) from error
     if not options.quiet:
         print(f"page: {output}")
     return OK
