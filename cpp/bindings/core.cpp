@@ -28,4 +28,6 @@ PYBIND11_MODULE(_core, m) {
   // Floors, lowest first.
   bind_geometry(m);
   bind_kinematics(m);
+  bind_world(m);
+  bind_collision(m);
 }

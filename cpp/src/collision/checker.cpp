@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace collision {
 
-void require_same_bodies(const CollisionModel& model, const Cell& cell) {
+void require_same_bodies(const CollisionModel::Impl& model, const Cell& cell) {
   const auto require_same = [](const auto& geometries, const std::vector<Body>& bodies,
                                const char* place) {
     if (geometries.size() != bodies.size()) {
@@ -51,7 +51,7 @@ void require_part(const Cell& cell, int part, const char* place) {
                          std::to_string(cell.parts.size()) + " parts");
 }
 
-std::vector<Obstacle> make_obstacles(const CollisionModel& model, const Cell& cell,
+std::vector<Obstacle> make_obstacles(const CollisionModel::Impl& model, const Cell& cell,
                                      const Pose& X_RW) {
   std::vector<Obstacle> obstacles;
   for (std::size_t i = 0; i < cell.fixtures.size(); ++i) {
@@ -74,7 +74,7 @@ std::vector<Obstacle> make_obstacles(const CollisionModel& model, const Cell& ce
 
 namespace {
 
-std::vector<Mover> make_movers(const CollisionModel& model, const Cell& cell) {
+std::vector<Mover> make_movers(const CollisionModel::Impl& model, const Cell& cell) {
   std::vector<Mover> movers;
   for (std::size_t i = 0; i < model.robot_bodies.size(); ++i) {
     Mover mover;
@@ -119,8 +119,9 @@ void set_checked(Mover& mover, bool held, const std::vector<Obstacle>& obstacles
 
 CollisionChecker::Impl::Impl(std::shared_ptr<const CollisionModel> model_in, const Cell& cell_in,
                              const Allowance& allowance)
-    : model(std::move(model_in)), cell(cell_in) {
-  if (model == nullptr) throw InvalidInput("E_REF", "model", "is null");
+    : owner(std::move(model_in)), cell(cell_in) {
+  if (owner == nullptr) throw InvalidInput("E_REF", "model", "is null");
+  model = &owner->impl();
   collision::require_same_bodies(*model, cell);
   if (allowance.closed_on) collision::require_part(cell, *allowance.closed_on, "closed_on");
   if (cell.held) {

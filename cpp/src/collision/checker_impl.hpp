@@ -33,10 +33,10 @@ struct Obstacle {
 
 /// The bodies that stand in the cell: fixtures, then the parts that are not held.
 /// @param X_RW world in the frame wanted
-std::vector<Obstacle> make_obstacles(const CollisionModel& model, const Cell& cell,
+std::vector<Obstacle> make_obstacles(const CollisionModel::Impl& model, const Cell& cell,
                                      const Pose& X_RW);
 /// @throws InvalidInput unless the cell has the bodies that the model was made for, at rigid poses
-void require_same_bodies(const CollisionModel& model, const Cell& cell);
+void require_same_bodies(const CollisionModel::Impl& model, const Cell& cell);
 /// @throws InvalidInput unless the cell has a part of this index
 void require_part(const Cell& cell, int part, const char* place);
 
@@ -56,7 +56,8 @@ struct PiecePair {
 }  // namespace collision
 
 struct CollisionChecker::Impl {
-  std::shared_ptr<const CollisionModel> model;
+  std::shared_ptr<const CollisionModel> owner;  ///< keeps the model alive
+  const CollisionModel::Impl* model = nullptr;
   Cell cell;
   std::vector<collision::Mover> movers;
   std::vector<collision::Obstacle> obstacles;

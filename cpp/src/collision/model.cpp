@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "handey/errors.hpp"
 
@@ -41,7 +42,7 @@ BodyGeometry make_body(const std::string& name, const std::vector<Shape>& shapes
   return body;
 }
 
-void find_depths(CollisionModel& model) {
+void find_depths(CollisionModel::Impl& model) {
   const Robot& robot = *model.robot;
   model.depth.assign(robot.bodies.size(), 0);
   model.is_finger.assign(robot.bodies.size(), 0);
@@ -101,7 +102,7 @@ Configuration random_configuration(const Robot& robot, std::mt19937_64& generato
 }
 
 /// The pairs that overlap nearly always, of those that overlap at home.
-std::vector<std::pair<int, int>> always_overlapping(const CollisionModel& model,
+std::vector<std::pair<int, int>> always_overlapping(const CollisionModel::Impl& model,
                                                     std::vector<std::pair<int, int>> candidates) {
   const auto overlaps = [&](const std::vector<Pose>& poses, const std::pair<int, int>& pair) {
     const std::size_t a = static_cast<std::size_t>(pair.first),
@@ -127,7 +128,7 @@ std::vector<std::pair<int, int>> always_overlapping(const CollisionModel& model,
   return candidates;
 }
 
-void find_self_pairs(CollisionModel& model) {
+void find_self_pairs(CollisionModel::Impl& model) {
   const int count = static_cast<int>(model.robot_bodies.size());
   for (int a = 0; a < count; ++a) {
     for (int b = a + 1; b < count; ++b) {
@@ -150,7 +151,7 @@ void find_self_pairs(CollisionModel& model) {
 
 std::shared_ptr<const CollisionModel> make_collision_model(const Cell& cell) {
   require_valid(cell);
-  std::shared_ptr<CollisionModel> model = std::make_shared<CollisionModel>();
+  std::unique_ptr<CollisionModel::Impl> model = std::make_unique<CollisionModel::Impl>();
   model->robot = cell.robot;
   for (const RobotBody& body : cell.robot->bodies) {
     model->robot_bodies.push_back(make_body(body.name, body.shapes));
@@ -160,7 +161,10 @@ std::shared_ptr<const CollisionModel> make_collision_model(const Cell& cell) {
   for (const Body& body : cell.parts) model->parts.push_back(make_body(body.name, body.shapes));
   find_depths(*model);
   find_self_pairs(*model);
-  return model;
+  return std::make_shared<const CollisionModel>(std::move(model));
 }
+
+CollisionModel::CollisionModel(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+CollisionModel::~CollisionModel() = default;
 
 }  // namespace handey

@@ -24,8 +24,7 @@ struct BodyGeometry {
 
 namespace handey {
 
-class CollisionModel {
- public:
+struct CollisionModel::Impl {
   std::shared_ptr<const Robot> robot;
   std::vector<collision::BodyGeometry> robot_bodies, fixtures, parts;
   std::vector<std::pair<int, int>>

@@ -47,7 +47,8 @@ bool are_near(const BodyGeometry& a, const Pose& X_WA, const BodyGeometry& b, co
 }
 
 /// All bodies that stand: fixtures, then the parts that are not held.
-std::vector<collision::Obstacle> standing_bodies(const CollisionModel& model, const Cell& cell) {
+std::vector<collision::Obstacle> standing_bodies(const CollisionModel::Impl& model,
+                                                 const Cell& cell) {
   return collision::make_obstacles(model, cell, Pose::Identity());
 }
 
@@ -56,8 +57,8 @@ std::vector<collision::Obstacle> standing_bodies(const CollisionModel& model, co
 std::vector<Overlap> find_overlaps(const CollisionModel& model, const Cell& cell,
                                    double tolerance) {
   require_not_negative(tolerance, "tolerance");
-  collision::require_same_bodies(model, cell);
-  const std::vector<collision::Obstacle> bodies = standing_bodies(model, cell);
+  collision::require_same_bodies(model.impl(), cell);
+  const std::vector<collision::Obstacle> bodies = standing_bodies(model.impl(), cell);
   std::vector<Overlap> overlaps;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
@@ -75,12 +76,12 @@ std::vector<Overlap> find_overlaps(const CollisionModel& model, const Cell& cell
 std::vector<BodyRef> touching_bodies(const CollisionModel& model, const Cell& cell, int part,
                                      double gap) {
   require_not_negative(gap, "gap");
-  collision::require_same_bodies(model, cell);
+  collision::require_same_bodies(model.impl(), cell);
   collision::require_part(cell, part, "part");
-  const BodyGeometry& own = model.parts[static_cast<std::size_t>(part)];
+  const BodyGeometry& own = model.impl().parts[static_cast<std::size_t>(part)];
   const Pose& X_WP = cell.parts[static_cast<std::size_t>(part)].X_WB;
   std::vector<BodyRef> touching;
-  for (const collision::Obstacle& body : standing_bodies(model, cell)) {
+  for (const collision::Obstacle& body : standing_bodies(model.impl(), cell)) {
     if (body.ref == BodyRef{BodyRef::Kind::Part, part}) continue;
     if (are_near(own, X_WP, *body.geometry, body.X_RB, gap)) touching.push_back(body.ref);
   }

@@ -18,7 +18,17 @@ namespace handey {
 
 /// Collision geometry of a cell's robot, fixtures and parts, and the robot's ignored pairs.
 /// Immutable, shared.
-class CollisionModel;
+class CollisionModel {
+ public:
+  struct Impl;  // for this room's sources
+  explicit CollisionModel(std::unique_ptr<const Impl> impl);
+  ~CollisionModel();
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<const Impl> impl_;
+};
+
 /// @throws InvalidInput for invalid cells
 std::shared_ptr<const CollisionModel> make_collision_model(const Cell& cell);
 
