@@ -127,8 +127,11 @@ const Eigen::VectorXd* same_configuration(const std::vector<Eigen::VectorXd>& le
 bool Approach::test_stop(const HandSlide& way, ApproachResult& result) {
   const PlanarPose stop = way.slide.path.back();
   const double short_by = std::hypot(stop.x - aim_.in_plane.x, stop.y - aim_.in_plane.y);
-  const std::string where = "stopped " + millimetres(short_by) + " before the target" +
-                            (way.reason.empty() ? "" : " (" + way.reason + ")");
+  const double turn = std::abs(std::remainder(stop.theta - aim_.in_plane.theta, 2.0 * kPi));
+  const std::string where =
+      (short_by > 1e-9 ? "stopped " + millimetres(short_by) + " before the target"
+                       : "arrived turned by " + degrees(turn) + " from the aim") +
+      (way.reason.empty() ? "" : " (" + way.reason + ")");
   LegalityOptions legality = options_.legality;
   legality.least_contact_share = options_.contact_share;
   const LegalGrasps tested = test_grasp_pose(scene_, solver_, pair_, stop, aim_.flipped, legality);

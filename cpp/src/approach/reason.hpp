@@ -1,4 +1,4 @@
-// How the local planners word why they stopped: lengths in millimetres, the pair in the way by name.
+// How the local planners word why they stopped: lengths in millimetres, angles in degrees, the pair in the way by name.
 #pragma once
 
 #include <string>
@@ -9,6 +9,8 @@ namespace handey {
 
 /// "12.3 mm"
 std::string millimetres(double metres);
+/// "12.3 degrees"
+std::string degrees(double radians);
 /// "gripper meets table"
 std::string describe(const Hit& hit);
 

@@ -91,7 +91,7 @@ std::string deepening(const Cell& cell, const Configuration& a, const Configurat
     const Pose X_WH = hand_in_world(cell, q);
     const double turn = Eigen::AngleAxisd(X_WH_start.linear().transpose() * X_WH.linear()).angle();
     if (turn > kMostTurn) {
-      return "the hand turns by " + std::to_string(turn) + " rad while still in contact";
+      return "the hand turns by " + degrees(turn) + " while still in contact";
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double along = direction.dot(X_WH * points[i]);
