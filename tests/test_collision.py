@@ -56,7 +56,7 @@ def test_a_cell_tells_what_it_was_given(cell):
 
 
 def test_an_unknown_part_is_named_with_the_legal_ones(cell):
-    with pytest.raises(InvalidInput, match="did you mean 'bracket'.*block, bracket"):
+    with pytest.raises(InvalidInput, match=r"did you mean 'bracket'.*block, bracket"):
         cell.part_index("braket")
 
 

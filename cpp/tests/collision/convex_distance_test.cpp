@@ -138,6 +138,46 @@ TEST(PieceDistance, AMeshThatIsNotConvexAgreesWithItsConvexParts) {
   EXPECT_GT(inside, 20);
 }
 
+TEST(PieceDistance, AShortHorizonKeepsItsSideAndIsExactBelow) {
+  const auto l =
+      piece_of(MeshShape{std::make_shared<TriangleMesh>(handey::testing::l_mesh(0.3, 0.1))});
+  const auto other = piece_of(Box{Eigen::Vector3d(0.1, 0.05, 0.08)});
+  Random random(10);
+  int below = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Pose X_WL = random.pose(0.2), X_WO = random.pose(0.2);
+    const double exact = piece_distance(*l, X_WL, *other, X_WO, 0.0, 10.0);
+    const double enough = random.uniform(0.0, 0.3);
+    if (std::abs(exact - enough) < 1e-6) continue;
+    const double answer = piece_distance(*l, X_WL, *other, X_WO, 0.0, enough);
+    ASSERT_EQ(answer > enough, exact > enough) << i;
+    if (exact >= enough) continue;
+    ++below;
+    ASSERT_NEAR(answer, exact, 1e-9) << i;
+  }
+  EXPECT_GT(below, 500);
+}
+
+TEST(PieceDistance, ACavityIsNotFilled) {
+  // A hollow box: the inner surface is turned inwards. What floats in it is free, what touches its
+  // wall is not.
+  TriangleMesh hollow = handey::testing::box_mesh({0.4, 0.4, 0.4});
+  const TriangleMesh inner = handey::testing::box_mesh({0.3, 0.3, 0.3});
+  const int first = static_cast<int>(hollow.vertices.size());
+  for (const Eigen::Vector3d& v : inner.vertices) hollow.vertices.push_back(v);
+  for (const Eigen::Vector3i& t : inner.triangles) {
+    hollow.triangles.emplace_back(first + t[0], first + t[2], first + t[1]);
+  }
+  const auto shell = piece_of(MeshShape{std::make_shared<TriangleMesh>(hollow)});
+  const auto small = piece_of(Box{Eigen::Vector3d(0.1, 0.1, 0.1)});
+  const Pose X = Pose::Identity();
+  EXPECT_NEAR(piece_distance(*shell, X, *small, X, 0.0, 1.0), 0.1, 1e-9);
+  const Pose in_wall = handey::testing::at(0.175, 0, 0);
+  const auto tiny = piece_of(Box{Eigen::Vector3d(0.01, 0.01, 0.01)});
+  EXPECT_LE(piece_distance(*shell, X, *tiny, in_wall, 0.0, 1.0), 0.0);
+  EXPECT_LE(piece_distance(*tiny, in_wall, *shell, X, 0.0, 1.0), 0.0);
+}
+
 TEST(SurfaceTree, AgreesWithTheSolidAngleAndWithAllTriangles) {
   const TriangleMesh mesh = handey::testing::tray_mesh({0.3, 0.2, 0.1}, 0.05);
   const SurfaceTree tree(mesh);
