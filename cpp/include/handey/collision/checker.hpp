@@ -1,10 +1,10 @@
-// Is the robot, with what it holds, free of the cell and of itself, and how far from it? The source
-// of this room is the only one that sees FCL. Meshes are solids: a body wholly inside another
-// collides. Which pairs count: robot bodies that an arm joint moves against fixtures and parts;
-// robot bodies against each other, but for bodies joined by a joint, pairs that overlap at home and
-// in more than 95 % of 1000 random configurations, and the robot file's list; the held part against
-// all of these but the fingers. Distances are lower bounds: never larger than the truth (to 1e-7
-// m).
+// Is the robot, with what it holds, free of the cell and of itself, and how far from it? Meshes are
+// solids: a body wholly inside another collides.
+// Which pairs count: robot bodies that an arm joint moves against fixtures and parts; robot bodies
+// against each other, but for bodies joined by a joint, pairs that overlap at home and in more than
+// 95 % of 1000 random configurations, and the robot file's list; the held part against all of these
+// but the fingers.
+// Distances are lower bounds: never larger than the truth (to 1e-7 m).
 #pragma once
 
 #include <memory>
