@@ -30,18 +30,18 @@ int main(int argc, char** argv) {
   const std::string models = argc > 1 ? argv[1] : "models";
   Cell cell = example::table_cell(models);
   // A thin blade: an edge check in steps of a degree would jump over it.
-  cell.fixtures.push_back(example::box("blade", {0.6, 0.001, 0.8}, example::at(0.55, 0.0, 0.4)));
+  cell.fixtures.push_back(example::box("blade", {0.6, 0.001, 0.8}, example::at(0.75, 0.0, 0.4)));
   require_valid(cell);
   CollisionChecker checker(make_collision_model(cell), cell);
 
-  const Configuration left = turned(cell, 0.6, 0.6), right = turned(cell, -0.6, 0.6);
+  const Configuration left = turned(cell, 0.9, 0.0), right = turned(cell, -0.9, 0.0);
   const Hit closest = checker.closest(left);
   std::printf("closest at the left: %s and %s, %.1f mm\n", closest.a.c_str(), closest.b.c_str(),
               1e3 * closest.distance);
   std::printf("no point moves farther than %.2f m from left to right\n",
               motion_bound(checker, left, right));
 
-  const bool up = report("up from the left", certify_edge(checker, left, turned(cell, 0.6, 1.5)));
+  const bool up = report("up from the left", certify_edge(checker, left, turned(cell, 0.9, 1.0)));
   const bool across = report("across the blade", certify_edge(checker, left, right));
   return up && !across ? 0 : 1;
 }
