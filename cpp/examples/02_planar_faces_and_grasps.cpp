@@ -43,6 +43,11 @@ int main(int argc, char** argv) {
     for (const std::string& name : ranked.obstructing) std::printf(", %s", name.c_str());
     std::printf("\n");
   }
+  for (const RankedPair& dropped : ranking.obstructed) {
+    std::printf("  faces %d and %d: dropped, %3.0f %% at the origin, %3.0f %% in all\n",
+                dropped.pair.face_a, dropped.pair.face_b, 100.0 * dropped.share_at_origin,
+                100.0 * dropped.share);
+  }
   bool in_order = !ranking.ranked.empty();
   for (const RankedPair& ranked : ranking.ranked) {
     in_order = in_order && ranked.share > 0.0 && ranked.share <= ranked.share_at_origin + 1e-9;

@@ -36,6 +36,8 @@ std::optional<std::vector<Step>> carry_out(const GraspScene& scene,
 
   const Configuration at_part = approach.path.back();
   const Configuration held{at_part.q, grasp.width};
+  CollisionChecker closing(scene.model, cell, {scene.part, {}});  // the fingers may touch the part
+  if (!certify_edge(closing, at_part, held).is_free()) return std::nullopt;
   CollisionChecker carrying(scene.model, holding);
   CollisionChecker standing(scene.model, holding,
                             {std::nullopt, touching_bodies(*scene.model, cell, scene.part)});
@@ -44,14 +46,14 @@ std::optional<std::vector<Step>> carry_out(const GraspScene& scene,
 
   CollisionChecker at_rest(scene.model, holding,
                            {std::nullopt, touching_bodies(*scene.model, placed, scene.part)});
-  CollisionChecker after(scene.model, placed);
+  CollisionChecker after(scene.model, placed), opening(scene.model, placed, {scene.part, {}});
   for (const Eigen::VectorXd& q_place : grasp.q_place) {
     const Configuration put_down{q_place, grasp.width}, let_go{q_place, grasp.opening};
     RetreatResult deposit = plan_retreat(at_rest, carrying, solver, put_down, up);
     if (!deposit.found) continue;
     const Eigen::Vector3d back = -hand_in_world(cell, q_place).linear().col(2);
     const RetreatResult withdraw = plan_retreat(after, after, solver, let_go, back);
-    if (!withdraw.found) continue;
+    if (!withdraw.found || !certify_edge(opening, put_down, let_go).is_free()) continue;
     std::reverse(deposit.path.begin(), deposit.path.end());
     const MotionResult transfer =
         plan_gross_motion(carrying, depart.path.back(), {deposit.path.front()});
