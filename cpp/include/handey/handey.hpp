@@ -27,6 +27,7 @@
 #include "handey/grasp/features.hpp"
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/ranking.hpp"
+#include "handey/grasp/target.hpp"
 #include "handey/grasp/legality.hpp"
 // approach
 #include "handey/approach/grid.hpp"
