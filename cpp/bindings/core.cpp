@@ -30,4 +30,5 @@ PYBIND11_MODULE(_core, m) {
   bind_kinematics(m);
   bind_world(m);
   bind_collision(m);
+  bind_grasp(m);
 }

@@ -129,8 +129,10 @@ CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
         candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
                           theta};
         candidate.contact_area = pad_contact_area(pair.unobstructed, candidate.pose, gripper);
-        ++list.tried;
-        if (candidate.contact_area < demand.required) {
+        const bool has_contact = candidate.contact_area >= demand.required;
+        // Drawn back until the contact is gone: not one more way that failed.
+        if (!has_contact && share > 0.0) break;
+        if (!has_contact) {
           ++list.too_little_contact;
           continue;
         }

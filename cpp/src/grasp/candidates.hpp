@@ -25,8 +25,7 @@ struct Candidate {
 
 struct CandidateList {
   std::vector<Candidate> candidates;  ///< most promising first
-  int tried = 0;
-  int too_little_contact = 0;
+  int too_little_contact = 0;  ///< target and direction where the pad at the target has too little
 };
 
 /// @param down_in_G  mean over both ends of the world's downward direction in G: the approach from

@@ -63,11 +63,8 @@ void count(LegalGrasps& result, grasp::PoseVerdict verdict) {
   }
 }
 
-void note_little_contact(grasp::Tally& tally, double contact, double required) {
-  tally.add("contact", "pads overlap the free faces by at most " +
-                           grasp::millimetres(contact * 1e3) + " mm2, " +
-                           grasp::millimetres(required * 1e3) + " mm2 are needed");
-}
+// "180.0 mm2" for 180e-6 m2.
+std::string square_millimetres(double area) { return grasp::millimetres(area * 1e3) + " mm2"; }
 
 }  // namespace
 
@@ -85,7 +82,9 @@ LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolve
   // Contact does not depend on the hand's half-turn.
   result.tried = result.too_little_contact = list.too_little_contact;
   for (int i = 0; i < list.too_little_contact; ++i) {
-    note_little_contact(tally, demand.best, demand.required);
+    tally.add("contact", "a pad has too little contact on the free faces (" +
+                             square_millimetres(demand.required) + " are needed, " +
+                             square_millimetres(demand.best) + " is the most at any target)");
   }
   grasp::PoseTester tester(scene, solver, options);
   std::set<std::pair<int, bool>> found;
@@ -132,7 +131,9 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
   grasp_pose.contact_area = pad_contact_area(pair.unobstructed, pose, gripper);
   if (grasp_pose.contact_area < demand.required) {
     result.too_little_contact = 1;
-    note_little_contact(tally, grasp_pose.contact_area, demand.required);
+    tally.add("contact", "a pad has " + square_millimetres(grasp_pose.contact_area) +
+                             " of contact on the free faces, " +
+                             square_millimetres(demand.required) + " are needed");
   } else {
     const grasp::PoseVerdict verdict =
         grasp::PoseTester(scene, solver, options).test(pair.pair, grasp_pose, tally);
