@@ -26,6 +26,7 @@
 // grasp
 #include "handey/grasp/features.hpp"
 #include "handey/grasp/backproject.hpp"
+#include "handey/grasp/target.hpp"
 #include "handey/grasp/ranking.hpp"
 #include "handey/grasp/target.hpp"
 #include "handey/grasp/legality.hpp"
