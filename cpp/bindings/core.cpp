@@ -31,4 +31,6 @@ PYBIND11_MODULE(_core, m) {
   bind_world(m);
   bind_collision(m);
   bind_grasp(m);
+  bind_approach(m);
+  bind_motion(m);
 }
