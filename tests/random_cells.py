@@ -159,7 +159,7 @@ def is_reachable(cell: dict, folder: Path) -> bool:
     goal, part = loaded.goals[0], loaded.cell.part_index(loaded.goals[0].part)
     solver = _core.SphericalWristSolver(loaded.cell.robot)
     model = _core.make_collision_model(loaded.cell)
-    scene = _core.GraspScene(model, loaded.cell, part, goal.X_WP)
+    scene = _core.GraspScene(model=model, cell=loaded.cell, part=part, X_WP_goal=goal.X_WP)
     ranking = _core.rank_grasps(loaded.cell, part, goal.X_WP)
     return any(_core.find_legal_grasps(scene, solver, pair).poses for pair in ranking.ranked)
 

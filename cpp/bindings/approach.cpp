@@ -268,7 +268,7 @@ void bind_plan_approach(py::module_& m) {
       .def_readonly("path", &ApproachResult::path,
                     "Configurations from the start to the grasp, hand open; every edge certified.")
       .def_readonly("slide", &ApproachResult::slide, "SlideResult in the grasp plane.")
-      .def("found", &ApproachResult::found)
+      .def_property_readonly("found", &ApproachResult::found)
       .def("__bool__", &ApproachResult::found);
   m.def(
       "plan_approach",

@@ -43,6 +43,7 @@ class Workspace:
     """What stays the same while one goal is planned.
 
     Attributes:
+        model: collision geometry of the cell.
         scene: the cell with the part at its origin and an empty hand, and where the part is to go.
         solver: inverse kinematics of the arm.
         current: where the arm is, and the opening.
@@ -50,6 +51,7 @@ class Workspace:
         clock: CPU seconds by stage.
     """
 
+    model: _core.CollisionModel
     scene: _core.GraspScene
     solver: _core.SphericalWristSolver
     current: _core.Configuration
@@ -126,7 +128,7 @@ def find_reach(
     scene = work.scene
     with work.clock("approach"):
         approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
-    if not approach.found():
+    if not approach:
         return Carry("approach", approach.reason)
     grasp, path = approach.grasp, list(approach.path)
     q = path[-1].q
@@ -134,11 +136,11 @@ def find_reach(
     X_HP = np.linalg.inv(_core.hand_in_world(scene.cell, q)) @ X_WP
 
     with work.clock("depart"):
-        standing = _core.CollisionChecker(scene.model, scene.cell)
+        standing = _core.CollisionChecker(work.model, scene.cell)
         closing = _core.certify_edge(
             standing, path[-1], _at(q, grasp.width + 2 * CLOSING_GAP), options.approach.certificate
         )
-        if not closing.is_free():
+        if not closing.is_free:
             return Carry("approach", f"the closing fingers meet {closing.hit.b}")
         depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, options)
     if not depart.found:
@@ -169,7 +171,7 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     scene, grasp = work.scene, reach.grasp
     planners: dict[str, str] = {}
     with work.clock("transit"):
-        checker = _core.CollisionChecker(scene.model, scene.cell)
+        checker = _core.CollisionChecker(work.model, scene.cell)
         transit, reason = _open_and_go(
             checker, work.current, [reach.approach[0]], options, planners, "transit"
         )
@@ -178,10 +180,10 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
 
     with work.clock("transfer"):
         held = scene.cell.with_held(scene.part, reach.X_HP)
-        checker = _core.CollisionChecker(scene.model, held)
+        checker = _core.CollisionChecker(work.model, held)
         goals = [placing.deposit[0] for placing in reach.places]
         transfer = _core.plan_gross_motion(checker, reach.depart[-1], goals, options.gross)
-    if not transfer.found():
+    if not transfer:
         return Carry("transfer", transfer.reason)
     planners["transfer"] = transfer.planner
     placing = reach.places[transfer.goal]
@@ -202,11 +204,11 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     if work.home is not None:
         with work.clock("home"):
             goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
-            checker = _core.CollisionChecker(scene.model, goal_cell)
+            checker = _core.CollisionChecker(work.model, goal_cell)
             home = _core.plan_gross_motion(
                 checker, end, [_at(work.home, end.opening)], options.gross
             )
-        if not home.found():
+        if not home:
             return Carry("home", home.reason)
         planners["home"] = home.planner
         motions.append(Motion("transit", list(home.path)))
@@ -230,12 +232,12 @@ def _lift(
 ) -> _core.RetreatResult:
     """Lift the part, held at `start`, off what it touches where it stands in `cell`; the longest of a few directions."""
     scene = work.scene
-    touches = _core.touching_bodies(scene.model, cell, scene.part)
+    touches = _core.touching_bodies(work.model, cell, scene.part)
     held = cell.with_held(scene.part, X_HP)
     in_contact = _core.CollisionChecker(
-        scene.model, held, _core.Allowance(held_touches=touches)
+        work.model, held, _core.Allowance(held_touches=touches)
     )
-    clear = _core.CollisionChecker(scene.model, held)
+    clear = _core.CollisionChecker(work.model, held)
     back = -_core.hand_in_world(cell, start.q)[:3, 2]
     best = None
     for direction in _directions(back):
@@ -269,7 +271,7 @@ def _withdraw(
     """Open the fingers over the part at its destination and draw the hand back: straight, else by the local planner."""
     scene = work.scene
     with work.clock("withdraw"):
-        checker = _core.CollisionChecker(scene.model, goal_cell)
+        checker = _core.CollisionChecker(work.model, goal_cell)
         opened = _at(q_place, grasp.opening)
         opening = _core.certify_edge(
             checker,
@@ -277,7 +279,7 @@ def _withdraw(
             opened,
             options.approach.certificate,
         )
-        if not opening.is_free():
+        if not opening.is_free:
             return [], f"the opening fingers meet {opening.hit.b}"
         hand = _core.hand_in_world(goal_cell, q_place)
         back, reason = -hand[:3, 2], ""
@@ -289,9 +291,11 @@ def _withdraw(
                 return list(result.path), ""
             reason = reason or result.reason
         # The slide of the approach, planned at the destination and driven backwards.
-        there = _core.GraspScene(scene.model, goal_cell, scene.part, scene.X_WP_goal)
+        there = _core.GraspScene(
+            model=work.model, cell=goal_cell, part=scene.part, X_WP_goal=scene.X_WP_goal
+        )
         slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
-        if slide.found() and np.allclose(slide.path[-1].q, q_place, atol=1e-9):
+        if slide and np.allclose(slide.path[-1].q, q_place, atol=1e-9):
             return list(slide.path)[::-1], ""
     return [], reason
 
@@ -313,19 +317,19 @@ def _open_and_go(
     wanted = goals[0].opening
     certificate = options.approach.certificate
     opened = _at(start.q, wanted)
-    if start.opening == wanted or _core.certify_edge(checker, start, opened, certificate).is_free():
+    if start.opening == wanted or _core.certify_edge(checker, start, opened, certificate).is_free:
         result = _core.plan_gross_motion(checker, opened, goals, options.gross)
         prefix = [] if start.opening == wanted else [start]
-        if result.found():
+        if result:
             planners[name] = result.planner
             return [*prefix, *result.path], ""
         return [], result.reason
     closed = [_at(goal.q, start.opening) for goal in goals]
     result = _core.plan_gross_motion(checker, start, closed, options.gross)
-    if not result.found():
+    if not result:
         return [], result.reason
     goal = goals[result.goal]
-    if not _core.certify_edge(checker, closed[result.goal], goal, certificate).is_free():
+    if not _core.certify_edge(checker, closed[result.goal], goal, certificate).is_free:
         return [], "no room to open the fingers at either end"
     planners[name] = result.planner
     return [*result.path, goal], ""

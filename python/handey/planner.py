@@ -70,10 +70,11 @@ class _DeadlinePassed(Exception):
 
 @dataclass
 class _Progress:
-    """The state of the world while the goals are planned one after another."""
+    """The state of the world while the goals are planned one after another, and the time of the plan [s]."""
 
     cell: _core.Cell
     current: _core.Configuration
+    clock: float = 0.0
     steps: list[Step] = field(default_factory=list)
 
 
@@ -119,7 +120,7 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
         steps=progress.steps,
         placements=_placements(cell_file, progress.cell),
     )
-    report.duration_s = round(sum(float(step.time[-1]) for step in result.steps), 6)
+    report.duration_s = round(progress.clock, 6)
     return PlanResult(replace(result, report=report.as_dict()), report)
 
 
@@ -185,8 +186,8 @@ def _plan_goals(
             is_last = all(i == index or _is_met(progress.cell, goals[i]) for i in pending)
             home = cell_file.cell.start.q if is_last and task.return_to_start else None
             part = progress.cell.part_index(goal.part)
-            scene = _core.GraspScene(model, progress.cell, part, goal.X_WP)
-            work = Workspace(scene, solver, progress.current, home, clock)
+            scene = _core.GraspScene(model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP)
+            work = Workspace(model, scene, solver, progress.current, home, clock)
             carry = _plan_goal(work, options, goal_report, stop_at)
             if carry is not None:
                 _take_over(progress, goal, index, carry, clock)
@@ -317,11 +318,12 @@ def _take_over(
                     goal=index,
                     part=goal.part if motion.held else None,
                     part_in_grasp_frame=carry.X_HP if motion.held else None,
-                    time=np.array(timed.time),
+                    time=progress.clock + np.array(timed.time),
                     positions=np.array([c.q for c in timed.configurations]),
                     opening=np.array([c.opening for c in timed.configurations]),
                 )
             )
+            progress.clock += timed.duration
     assert carry.end is not None
     progress.current = carry.end
     progress.cell = progress.cell.with_part_at(progress.cell.part_index(goal.part), goal.X_WP)
