@@ -1,4 +1,5 @@
-"""A small pick and place made by hand: numeric inverse kinematics, straight lines, timed at half speed.
+"""A small pick and place made by hand: numeric inverse kinematics, straight lines, timed at half
+speed.
 
 No planner is involved, so that the checker's tests stand on their own.
 """
@@ -10,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import yaml
+from scipy.spatial.transform import Rotation
+
 from handey.check.cell import Cell, read_cell
 from handey.check.kinematics import forward
 from handey.check.values import rpy_matrix
-from scipy.spatial.transform import Rotation
 
 ROOT = Path(__file__).resolve().parents[1]
 ROBOT = ROOT / "models" / "robots" / "puma560" / "robot.yaml"
@@ -162,7 +164,8 @@ class PlanMaker:
     def plan(self):
         return {
             "handey_plan": 1, "cell": self.cell.name, "joints": self.cell.robot.joint_names(),
-            "steps": copy.deepcopy(self.steps), "placements": copy.deepcopy(self.placements), "report": {},
+            "steps": copy.deepcopy(self.steps), "placements": copy.deepcopy(self.placements),
+            "report": {},
         }  # fmt: skip
 
 

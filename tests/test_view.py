@@ -11,6 +11,7 @@ import time
 import numpy as np
 import pytest
 from hand_made import ROOT, pick_and_place, write_cell
+
 from handey.errors import InvalidInput
 from handey.view import write_page
 

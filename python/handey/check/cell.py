@@ -1,7 +1,7 @@
 """The cell as the checker reads it: robot, fixtures, parts, measured obstacles, task.
 
-Method: an own strict reading of the cell file. A body's shapes are kept in the body's frame. Measured
-obstacles become fixtures of one mesh each (see depth).
+Method: an own strict reading of the cell file. A body's shapes are kept in the body's frame.
+Measured obstacles become fixtures of one mesh each (see depth).
 """
 
 from __future__ import annotations
@@ -119,7 +119,8 @@ class _Reader:
         cell = Cell(
             text(content["name"], self.file, "name"), self.file, robot,
             pose(place.get("base"), self.file, "robot.base"), start, opening, fixtures, parts, [],
-            self.choice(content, "order", ("given", "any")), self.choice(content, "finish", ("start", "anywhere")),
+            self.choice(content, "order", ("given", "any")),
+            self.choice(content, "finish", ("start", "anywhere")),
         )  # fmt: skip
         for name, map_ in self.named(content, "depth_maps"):
             fixtures.append(self.depth_map(name, map_, f"depth_maps.{name}", cell))

@@ -1,7 +1,8 @@
 """Obstacles known only by measurement, as closed surfaces.
 
-A map of heights stands for one square column per entry; what was not measured is as high as the highest.
-The surface of all columns is one mesh: tops, bottoms and the walls where neighbours differ.
+A map of heights stands for one square column per entry; what was not measured is as high as the
+highest. The surface of all columns is one mesh: tops, bottoms and the walls where neighbours
+differ.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def read_heights(path: Path, file: str, place: str) -> Array:
     heights = heights.astype(float)
     if np.isinf(heights).any() or np.isnan(heights).all():
         raise fault("E_NPY", file, place, f"{path}: infinite heights, or nothing measured")
-    return np.where(np.isnan(heights), np.nanmax(heights), heights)
+    return np.asarray(np.where(np.isnan(heights), np.nanmax(heights), heights))
 
 
 def column_surface(heights: Array, side: float) -> Shape:
@@ -57,7 +58,8 @@ def column_surface(heights: Array, side: float) -> Shape:
             edge = (columns - 1) * side + d
             ends = [(edge, rows * side - d), (edge, rows * side + d)]
         (x0, y0), (x1, y1) = [(p[0], p[1]) for p in ends]
-        # Seen from b's side when a is the higher: counter-clockwise; the other way round it turns by itself.
+        # Seen from b's side when a is the higher: counter-clockwise; the other way round it turns
+        # by itself.
         corners = [(x0, y0, zb), (x1, y1, zb), (x1, y1, za), (x0, y0, za)]
         quads.append(np.stack([np.stack(corner, axis=-1) for corner in corners], axis=1))
     return _surface(np.vstack(quads))

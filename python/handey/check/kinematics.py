@@ -1,7 +1,8 @@
 """Where every body of the robot is, for all samples at once, and bounds on how far points move.
 
-Method: a product of joint transforms, arrays over the samples. A point that is at most r from a joint's axis
-moves at most |dq| r while the joint moves by dq; bounds add over the joints between two bodies.
+Method: a product of joint transforms, arrays over the samples. A point that is at most r from a
+joint's axis moves at most |dq| r while the joint moves by dq; bounds add over the joints between
+two bodies.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ def forward(robot: Robot, base: Array, q: Array, opening: Array) -> Frames:
     """All bodies in the world.
 
     Args:
+        robot: its bodies and joints.
+        base: pose of the root link in the world (4, 4).
         q: (n, joints) [rad].
         opening: (n,) [m].
     """

@@ -1,4 +1,4 @@
-"""What a check found: the faults, each under the name of the clause that it breaks, and the margins."""
+"""What a check found: the faults, each under the name of its clause, and the margins."""
 
 from __future__ import annotations
 
@@ -67,10 +67,11 @@ class CheckReport:
     """The outcome of a check.
 
     Attributes:
-        faults: what is wrong, in the order of the steps; at most one per clause, step and pair of bodies.
-        least_clearance: least distance between robot or held part and the cell, contacts that belong to
-            the work left out [m]; infinite where nothing was near. The true minimum is not more than
-            10 % + 0.05 mm smaller. Zero where something collides.
+        faults: what is wrong, in the order of the steps; at most one per clause, step and pair of
+        bodies. least_clearance: least distance between robot or held part and the cell, contacts
+        that belong to
+            the work left out [m]; infinite where nothing was near. The true minimum is not more
+            than 10 % + 0.05 mm smaller. Zero where something collides.
         least_clearance_between: the two bodies.
         least_clearance_time: when [s].
         least_self_clearance: the same, of the robot with itself [m].
@@ -123,5 +124,6 @@ class CheckReport:
         clearance = "none measured"
         if self.least_clearance_between is not None and self.least_clearance_time is not None:
             a, b = self.least_clearance_between
-            clearance = f"{self.least_clearance * 1e3:.2f} mm ({a} - {b}, {self.least_clearance_time:.3f} s)"
+            clearance = f"{self.least_clearance * 1e3:.2f} mm"
+            clearance += f" ({a} - {b}, {self.least_clearance_time:.3f} s)"
         return f"valid: {self.duration:.2f} s, least clearance {clearance}"

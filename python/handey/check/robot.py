@@ -1,7 +1,7 @@
 """The robot as the checker reads it: bodies, joints, gripper, from a robot file and its URDF.
 
-Links joined by fixed joints are one body, in the frame of the first of them. Not read: dynamics, sensors,
-transmissions. A movable joint that the robot file does not name is a fault.
+Links joined by fixed joints are one body, in the frame of the first of them. Not read: dynamics,
+sensors, transmissions. A movable joint that the robot file does not name is a fault.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Joint:
 
 @dataclass
 class Robot:
-    """What the files say of the robot. `bodies[0]` is the base; `joints` are the arm's, base to flange."""
+    """What the files say of the robot: `bodies[0]` is the base, `joints` lead to the flange."""
 
     name: str
     file: str
@@ -85,7 +85,8 @@ def read_robot(path: Path) -> Robot:
     file = str(path)
     content = keys(
         load_yaml(path), file, "",
-        ("handey_robot", "name", "urdf", "arm", "home", "gripper"), ("acceleration", "ignore_collisions"),
+        ("handey_robot", "name", "urdf", "arm", "home", "gripper"),
+        ("acceleration", "ignore_collisions"),
     )  # fmt: skip
     gripper = keys(
         content["gripper"], file, "gripper", ("link", "fingers", "opening", "pad"), ("grasp_frame",)
@@ -120,7 +121,10 @@ def read_robot(path: Path) -> Robot:
         [joints[name] for name in arm], [joints[name] for name in fingers], hand,
         X_BL @ pose(gripper.get("grasp_frame"), file, "gripper.grasp_frame"),
         vector(content["home"], len(arm), file, "home"), (float(opening[0]), float(opening[1])),
-        (number(pad["width"], file, "gripper.pad.width"), number(pad["length"], file, "gripper.pad.length")),
+        (
+            number(pad["width"], file, "gripper.pad.width"),
+            number(pad["length"], file, "gripper.pad.length"),
+        ),
         ignored,
     )  # fmt: skip
 

@@ -1,8 +1,8 @@
-"""The shapes bodies are made of, as triangles: what the checker and the viewer need to know of them.
+"""The shapes bodies are made of, as triangles: what checker and viewer need to know of them.
 
-Boxes are exact; cylinders and spheres keep their radius for distances (the engine knows them) and have
-inscribed triangles for areas and pictures. A mesh is read with trimesh, welded, scaled, and sorted into
-convex, closed or open. Not guaranteed: that a closed mesh does not intersect itself.
+Boxes are exact; cylinders and spheres keep their radius for distances (the engine knows them) and
+have inscribed triangles for areas and pictures. A mesh is read with trimesh, welded, scaled, and
+sorted into convex, closed or open. Not guaranteed: that a closed mesh does not cut itself.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from __future__ import annotations
 import logging
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import trimesh
 
 from handey.check.values import Array, fault
 
@@ -61,7 +61,7 @@ class Shape:
 
     def triangles(self) -> Array:
         """The triangles in the body frame (m, 3, 3)."""
-        return self.points()[self.faces]
+        return np.asarray(self.points()[self.faces])
 
 
 def transformed(matrix: Array, points: Array) -> Array:
@@ -97,6 +97,8 @@ def cylinder(radius: float, length: float, pose: Array, segments: int = SEGMENTS
 
 def sphere(radius: float, pose: Array) -> Shape:
     """A sphere, centred."""
+    import trimesh  # here, because it takes its time
+
     ball = trimesh.creation.icosphere(subdivisions=4, radius=radius)
     return Shape("sphere", (radius,), pose, np.array(ball.vertices), np.array(ball.faces))
 
@@ -163,8 +165,10 @@ def read_mesh(path: Path, scale: Array, pose: Array, file: str, place: str) -> S
         raise fault("E_PATH", file, place, f"no file {path}")
     if path.stat().st_size > MAX_BYTES:
         raise fault("E_TOO_BIG", file, place, f"{path} is larger than {MAX_BYTES} bytes")
+    import trimesh
+
     try:
-        loaded = trimesh.load(path, force="mesh", process=False)
+        loaded: Any = trimesh.load(path, force="mesh", process=False)
         vertices = np.asarray(loaded.vertices, dtype=float) * scale
         faces = np.asarray(loaded.faces, dtype=np.int64)
     except Exception as error:  # the reader raises whatever its formats' readers raise
@@ -189,4 +193,4 @@ def _welded(vertices: Array, faces: np.ndarray) -> tuple[Array, np.ndarray]:
     whole = (
         (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
     )
-    return vertices[first], faces[whole]
+    return np.asarray(vertices[first]), faces[whole]

@@ -1,9 +1,9 @@
 """Distances between solids: the second collision engine, made whole.
 
-coal answers for single pieces. It knows only the skin of a mesh, so a piece that lies wholly inside a closed
-mesh is found by its winding number. How deep two pieces overlap is decided by moving one away: they overlap
-by at most delta if some translation by delta parts them.
-Not guaranteed: that every such translation is tried. A depth may be over-estimated, never under-estimated.
+coal answers for single pieces. It knows only the skin of a mesh, so a piece that lies wholly inside
+a closed mesh is found by its winding number. How deep two pieces overlap is decided by moving one
+away: they overlap by at most delta if some translation by delta parts them. Not guaranteed: that
+every such translation is tried. A depth may be over-estimated, never under-estimated.
 """
 
 from __future__ import annotations
@@ -27,11 +27,10 @@ class Piece:
     """A shape as the engine sees it, and what bounds it, in its body's frame.
 
     Attributes:
-        geometry: the engine's object, in the shape frame.
-        pose: shape frame in the body.
-        centres, radii: spheres that cover the piece (k, 3), (k,), in the body frame.
-        box_centre, box_half: box around the piece in the shape frame.
-        solid: triangles (body frame) of a closed mesh that the engine sees as a skin only, else None.
+        geometry: the engine's object, in the shape frame. pose: shape frame in the body. centres,
+        radii: spheres that cover the piece (k, 3), (k,), in the body frame. box_centre, box_half:
+        box around the piece in the shape frame. solid: triangles (body frame) of a closed mesh that
+        the engine sees as a skin only, else None.
         probes: a point of each connected part of the surface (body frame).
         directions: ways to push it free (body frame).
     """
@@ -148,9 +147,10 @@ class Engine:
         self._last_way: Array | None = None
 
     def distance(self, a: Placed, b: Placed, shift: Array | None = None) -> float:
-        """Between two placed pieces, `a` moved by `shift`; zero or less where the surfaces meet [m].
+        """Between two placed pieces, `a` moved by `shift` [m].
 
-        A piece wholly inside a mesh is not seen here: see `contains`.
+        Zero or less where the surfaces meet. A piece wholly inside a mesh is not seen here: see
+        `contains`.
         """
         self.queries += 1
         X_a, X_b = a.piece.pose, b.piece.pose
@@ -166,7 +166,7 @@ class Engine:
         return float(found)
 
     def contains(self, a: Placed, b: Placed, shift: Array | None = None) -> bool:
-        """Is one of them wholly or partly inside the other's mesh, though the surfaces do not meet?"""
+        """Is one of them inside the other's mesh, though the surfaces need not meet?"""
         move = np.zeros(3) if shift is None else shift
         for outer, inner, sign in ((a, b, -1.0), (b, a, 1.0)):
             if outer.piece.solid is None:
@@ -178,8 +178,10 @@ class Engine:
         return False
 
     def signed(self, a: Placed, b: Placed, tolerance: float, ways: Array | None = None) -> float:
-        """A lower bound of the distance: their distance where they are apart; where they overlap by less
-        than `tolerance`, how far they are apart once moved by it, less `tolerance`; else minus infinity.
+        """A lower bound of the distance [m].
+
+        Their distance where they are apart; where they overlap by less than `tolerance`, how far
+        they are apart once moved by it, less `tolerance`; else minus infinity.
         """
         found = self.distance(a, b)
         if found > 0 and not self.contains(a, b):
@@ -188,7 +190,7 @@ class Engine:
         return -math.inf if room is None else room - tolerance
 
     def _room(self, a: Placed, b: Placed, delta: float, ways: Array | None) -> float | None:
-        """The distance after moving `a` by `delta` one of the ways that part them; None if none does."""
+        """The distance after moving `a` by `delta` a way that parts them; None if none does."""
         normal = np.array(self._result.normal)
         tries: list[Array] = [] if self._last_way is None else [self._last_way]
         if np.isfinite(normal).all() and abs(np.linalg.norm(normal) - 1) < 1e-6:
@@ -215,7 +217,7 @@ class Engine:
 
 
 def _inside(triangles: Array, point: Array) -> bool:
-    """Winding number of a closed surface about a point (solid angles: Van Oosterom and Strackee)."""
+    """Does a closed surface wind about a point? Solid angles: Van Oosterom and Strackee."""
     if np.any(point < triangles.min(axis=(0, 1))) or np.any(point > triangles.max(axis=(0, 1))):
         return False
     a, b, c = np.moveaxis(triangles - point, 1, 0)

@@ -1,9 +1,10 @@
 """Do two bodies keep apart during a motion? A proof in continuous time, not a sample.
 
-Between two samples no point of one body moves further, seen from the other, than the sum over the joints
-between them of |dq| times its reach. Where spheres and boxes prove that this motion cannot close the gap,
-nothing is asked; elsewhere the engine is, and the answer is good until the motion has used it up. What stays
-open is cut finer, down to 0.01 mm of motion. So an overlap of more than tolerance + 0.005 mm is always found.
+Between two samples no point of one body moves further, seen from the other, than the sum over the
+joints between them of |dq| times its reach. Where spheres and boxes prove that this motion cannot
+close the gap, nothing is asked; elsewhere the engine is, and the answer is good until the motion
+has used it up. What stays open is cut finer, down to 0.01 mm of motion. So an overlap of more than
+tolerance + 0.005 mm is always found.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ HORIZON = 0.1  # clearances above this are not looked for [m]
 
 @dataclass
 class Samples:
-    """Configurations in time order. Interval k leads from sample k to k + 1, straight in joint space;
-    `step` (n - 1,) is the index of the plan's step that it is part of.
+    """Configurations in time order; interval k leads straight from sample k to k + 1.
+
+    `step` (n - 1,) is for each interval the index of the plan's step that it is part of.
     """
 
     q: Array
@@ -39,7 +41,7 @@ class Samples:
 
 @dataclass
 class Actor:
-    """A body in the sweep: rigid in a body of the robot, or standing in the world (`body` is None)."""
+    """A body in the sweep: rigid in a body of the robot, or (`body` is None) in the world."""
 
     name: str
     pieces: list[Piece]
@@ -88,6 +90,10 @@ class Clearance:
     time: float | None = None
     share: float = 0.9  # of the least: what is proven
 
+    def wanted(self) -> float:
+        """The distance that need not be looked below [m]."""
+        return self.share * self.least - 5e-5
+
 
 @dataclass
 class Hit:
@@ -112,7 +118,7 @@ class Sweep:
     def run(self, samples: Samples, jobs: list[Job], clearance: Clearance) -> list[Hit]:
         """All jobs; the nearest pairs first, so that the least clearance is known early."""
         self.samples += len(samples.q)
-        waiting = []
+        waiting: list[tuple[float, int, Job, int, int, Array, Array]] = []
         for job in jobs:
             if not job.live.any():
                 continue
@@ -148,7 +154,8 @@ class Sweep:
                     arm_vector = centre - samples.frames.axis_point[i, :-1]
                     off = np.cross(samples.frames.axis[i, :-1], arm_vector)
                     reach[i] = np.linalg.norm(off, axis=1) + actor.radius
-            # Joints further out change the distance to an axis within the interval: add their motion.
+            # Joints further out change the distance to an axis within the interval: add their
+            # motion.
             outer = np.zeros(len(turn))
             for joint in reversed(own):
                 if joint.prismatic:
@@ -164,31 +171,42 @@ class Sweep:
         self, samples: Samples, job: Job, pair: tuple[int, int], bound: Array, motion: Array,
         clearance: Clearance,
     ) -> list[Hit]:  # fmt: skip
-        aim = -job.tolerance
-        wanted = clearance.share * clearance.least - 5e-5
-        aim = np.where(job.clears, np.maximum(aim, wanted), aim)
-        unproven = job.live & (bound[:-1] + bound[1:] < motion + 2 * aim)
-        if not unproven.any():
+        lowest = -job.tolerance
+        aim = np.where(job.clears, np.maximum(lowest, clearance.wanted()), lowest)
+        unproven = np.flatnonzero(job.live & (bound[:-1] + bound[1:] < motion + 2 * aim))
+        if len(unproven) == 0:
             return []
         run = _Run(self.engine, samples, job, pair, clearance)
+        run.value(
+            int(unproven[np.argmin(bound[unproven])]), int(unproven[np.argmin(bound[unproven])])
+        )
         along = np.concatenate([[0.0], np.cumsum(motion)])
-        reach, hits, still_open = -math.inf, [], []
-        bad_step = -1
-        for k in np.flatnonzero(unproven):
-            if samples.step[k] == bad_step or along[k + 1] + aim[k] <= reach:
+        reach, bad_step = -math.inf, -1
+        hits: list[Hit] = []
+        still_open: list[tuple[int, float]] = []
+
+        def target(k: int) -> float:  # what interval k must keep; falls as nearer pairs are met
+            least = float(lowest[k])
+            return max(least, clearance.wanted()) if job.clears[k] else least
+
+        for k in map(int, unproven):
+            if samples.step[k] == bad_step or along[k + 1] + target(k) <= reach:
                 continue
             near = run.value(k, k)
             reach = max(reach, along[k] + near)
-            if along[k + 1] + aim[k] <= reach:
+            if along[k + 1] + target(k) <= reach:
                 continue
             far = run.value(k + 1, k)
-            if min(near, far) < -job.tolerance[k] - 1e-12:
+            if min(near, far) < lowest[k] - 1e-12:
                 bad_step = samples.step[k]
-                hits.append(run.hit(k if near < -job.tolerance[k] - 1e-12 else k + 1, k))
+                hits.append(run.hit(k if near < lowest[k] - 1e-12 else k + 1, k))
                 continue
             reach = max(reach, along[k + 1] + far)
-            if near + far < motion[k] + 2 * aim[k] and motion[k] > FLOOR:
-                still_open.append((k, near + far - 2 * aim[k]))
+            if motion[k] > FLOOR:
+                still_open.append((k, near + far))
+        still_open = [
+            (k, gaps - 2 * target(k)) for k, gaps in still_open if gaps < motion[k] + 2 * target(k)
+        ]
         if still_open:
             hits += self._finer(samples, job, pair, motion, still_open, clearance)
         return hits
@@ -197,7 +215,7 @@ class Sweep:
         self, samples: Samples, job: Job, pair: tuple[int, int], motion: Array,
         intervals: list[tuple[int, float]], clearance: Clearance,
     ) -> list[Hit]:  # fmt: skip
-        """The same for these intervals only, each cut into pieces as short as their gaps ask for."""
+        """The same for these intervals only, cut as finely as their gaps ask for."""
         index, share, cut = [], [], []
         for k, room in intervals:
             count = int(np.clip(math.ceil(motion[k] / max(0.7 * room, FLOOR)), 2, 256))
@@ -259,13 +277,14 @@ class _Run:
 
     def hit(self, k: int, interval: int) -> Hit:
         return Hit(
-            self.job.a.name, self.job.b.name, float(self.samples.time[k]), int(self.samples.step[interval]),
+            self.job.a.name, self.job.b.name, float(self.samples.time[k]),
+            int(self.samples.step[interval]),
             float(self.job.tolerance[interval]), self.engine.depth(*self.placed(k)),
         )  # fmt: skip
 
 
 def _bounds(frames: Frames, job: Job) -> list[tuple[int, int, Array]]:
-    """For every pair of pieces a lower bound of their distance at each sample: spheres against a box."""
+    """For every pair of pieces a lower bound of the distance: spheres against a box (n,)."""
     R_a, p_a = job.a.poses(frames)
     R_b, p_b = job.b.poses(frames)
     n = frames.R.shape[1]

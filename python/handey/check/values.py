@@ -1,7 +1,8 @@
 """Reads single values of the files: numbers, vectors, poses; and the strict mapping they come in.
 
-Every reader takes the place of its value in the file, so that a fault names it. Method: PyYAML's safe loader
-without aliases and duplicate keys; numbers written 1e-3 (a string in YAML 1.1) are numbers.
+Every reader takes the place of its value in the file, so that a fault names it. Method: PyYAML's
+safe loader without aliases and duplicate keys; numbers written 1e-3 (a string in YAML 1.1) are
+numbers.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ import yaml
 from handey.errors import Fault, InvalidInput
 
 __all__ = [
-    "Array", "fault", "keys", "load_yaml", "number", "pose", "positive", "rpy_matrix", "text", "vector",
+    "Array", "fault", "keys", "load_yaml", "number", "pose", "positive", "rpy_matrix", "text",
+    "vector",
 ]  # fmt: skip
 
 Array = npt.NDArray[np.float64]
@@ -60,7 +62,7 @@ def load_yaml(path: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > MAX_BYTES:
             raise fault("E_TOO_BIG", str(path), "", f"larger than {MAX_BYTES} bytes")
-        content = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)  # noqa: S506
+        content = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
     except (OSError, UnicodeDecodeError) as error:
         raise fault("E_PATH", str(path), "", f"cannot be read: {error}") from error
     except (yaml.YAMLError, RecursionError) as error:

@@ -1,8 +1,8 @@
 """A page that plays a plan: one HTML file that needs no network and no server.
 
-The page holds the geometry, the rows of the plan and a small viewer (viewer.js: WebGL 2, plain JavaScript).
-It reads the files as the checker does and moves the robot by its own kinematics, so it shows what the plan
-says, valid or not.
+The page holds the geometry, the rows of the plan and a small viewer (viewer.js: WebGL 2, plain
+JavaScript). It reads the files as the checker does and moves the robot by its own kinematics, so it
+shows what the plan says, valid or not.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from typing import Any
 
 import numpy as np
 
+from handey.check.carries import find_carries
 from handey.check.cell import Body, Cell, read_cell
-from handey.check.contacts import unit_normals
 from handey.check.plan_data import PlanData, load_json, read_plan
+from handey.check.planar import unit_normals
 from handey.check.report import CheckReport
 from handey.check.robot import Robot
 from handey.check.shapes import Shape
-from handey.check.task import find_carries
 from handey.check.values import Array
 from handey.errors import Fault, InvalidInput
 
@@ -92,7 +92,7 @@ def _page(cell: Cell, plan: PlanData | None) -> str:
     return page
 
 
-# --------------------------------------------------------------------------------------------- scene
+# ------------------------------------------------------------------------------------------- scene
 
 
 class _Meshes:
@@ -155,7 +155,8 @@ def _scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
             "bodies": [{"name": b.name, "shapes": shapes(s)} for b, s in _pictures(robot)],
             "joints": [
                 {
-                    "name": j.name, "parent": j.parent, "child": j.child, "origin": _matrix(j.origin),
+                    "name": j.name, "parent": j.parent, "child": j.child,
+                    "origin": _matrix(j.origin),
                     "axis": j.axis.tolist(), "slides": j.prismatic, "index": arm.get(j.name, -1),
                     "limits": [x if np.isfinite(x) else None for x in (j.lower, j.upper)],
                 }
@@ -179,7 +180,7 @@ def _scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
 
 
 def _pictures(robot: Robot) -> list[tuple[Any, list[Shape]]]:
-    """Each body with what is to be shown of it: its visual shapes if they can be had, else the others."""
+    """Each body with what is shown of it: its visual shapes if they can be had, else the others."""
     total = sum(len(shape.faces) for body in robot.bodies for shape in body.visuals)
     if total > MOST_TRIANGLES:
         return [(body, body.shapes) for body in robot.bodies]
@@ -204,8 +205,9 @@ def _motion(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
         grip = None if held is None or step.X_HP is None else _matrix(step.X_HP)
         steps.append(
             {
-                "action": step.action, "goal": step.goal, "held": held, "grip": grip, "parts": parts,
-                "row": row, "rows": len(step.time), "from": float(step.time[0]), "to": float(step.time[-1]),
+                "action": step.action, "goal": step.goal, "held": held, "grip": grip,
+                "parts": parts, "row": row, "rows": len(step.time),
+                "from": float(step.time[0]), "to": float(step.time[-1]),
             }
         )  # fmt: skip
         row += len(step.time)
