@@ -1,4 +1,4 @@
-"""Grasp planning from Python: Figure 4 as a cell, legal grasps tested again, the border's type checks."""
+"""Grasp planning from Python: Figure 4 as a cell, legal grasps tested again, bad inputs."""
 
 from __future__ import annotations
 

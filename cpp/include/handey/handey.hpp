@@ -28,7 +28,6 @@
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/target.hpp"
 #include "handey/grasp/ranking.hpp"
-#include "handey/grasp/target.hpp"
 #include "handey/grasp/legality.hpp"
 // approach
 #include "handey/approach/grid.hpp"

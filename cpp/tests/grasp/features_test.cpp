@@ -247,8 +247,8 @@ TEST(FeaturePairs, RefuseAPartWithoutShapeAndBadOptions) {
 // clipping of another): faces of 25 mm2 and more, overlaps of 10 mm2 and more, up to 100 mm apart,
 // within 1.1 degrees. It takes faces apart that lie in one plane but do not touch; here they are
 // one, so pieces are counted. It did not look whether another solid of the same file covers a face.
-// Of tilted_lshape it took a 147 mm2 triangle of the plane z = 25.02 mm for a face of its own, whence
-// its 7 pairs, the largest of 1910 mm2; merged they are 6 and 1960.
+// Of tilted_lshape it took a 147 mm2 triangle of the plane z = 25.02 mm for a face of its own,
+// whence its 7 pairs, the largest of 1910 mm2; merged they are 6 and 1960.
 struct CountedPart {
   const char* file;
   double scale;
