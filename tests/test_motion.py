@@ -52,13 +52,13 @@ def velocity_limits(robot) -> np.ndarray:
 
 def test_lifts_the_arm_over_a_wall(checker):
     result = _core.plan_gross_motion(checker, stretched(0.9), [stretched(-1.2), stretched(-0.9)])
-    assert result.found() and result
+    assert result.found and result
     assert result.status == _core.MotionStatus.Found
     assert (result.planner, result.goal) == ("RRT-Connect", 1)
     path = rows(result.path)
     assert np.array_equal(path[0], rows([stretched(0.9)])[0])
     assert np.array_equal(path[-1], rows([stretched(-0.9)])[0])
-    assert _core.certify_path(checker, result.path).is_free()
+    assert _core.certify_path(checker, result.path).is_free
     for a, b in zip(path[:-1], path[1:], strict=True):
         for share in np.linspace(0, 1, 300):
             row = a + share * (b - a)
@@ -81,7 +81,7 @@ def test_shortening_keeps_the_ends_and_saves_time(checker, robot):
     short = _core.shorten_path(checker, found.path)
     assert np.array_equal(rows(short)[[0, -1]], rows(found.path)[[0, -1]])
     assert _core.travel_time(robot, short) < _core.travel_time(robot, found.path)
-    assert _core.certify_path(checker, short).is_free()
+    assert _core.certify_path(checker, short).is_free
 
 
 def test_a_blocked_start_and_blocked_goals_are_told_by_name(checker):
@@ -96,7 +96,7 @@ def test_a_blocked_start_and_blocked_goals_are_told_by_name(checker):
 def test_timing_keeps_to_the_limits_and_to_the_path(checker, robot):
     corners = [stretched(0.9, 0.1), stretched(0.2, 0.1), stretched(0.2, 0.02), stretched(0.5, 0.06)]
     timed = _core.time_path(robot, corners, _core.TimingOptions(interval=0.01))
-    assert timed.time[0] == 0 and timed.time[-1] == timed.duration()
+    assert timed.time[0] == 0 and timed.time[-1] == timed.duration
     assert timed.positions.shape == (len(timed), 6) and timed.opening.shape == (len(timed),)
     assert (np.diff(timed.time) > 0).all()
     driven = np.column_stack([timed.positions, timed.opening])
@@ -105,14 +105,14 @@ def test_timing_keeps_to_the_limits_and_to_the_path(checker, robot):
     assert (speed.max(axis=0) > 0.5 * velocity_limits(robot))[[0, 6]].all()
     for corner in rows(corners):
         assert (driven == corner).all(axis=1).any()
-    assert timed.duration() > _core.travel_time(robot, corners)
+    assert timed.duration > _core.travel_time(robot, corners)
     slow = _core.time_path(robot, corners, _core.TimingOptions(speed_scale=0.1))
-    assert slow.duration() > 2 * timed.duration()
+    assert slow.duration > 2 * timed.duration
 
 
 def test_a_path_that_stays_is_one_row(robot):
     timed = _core.time_path(robot, [stretched(0.9), stretched(0.9)])
-    assert timed.time.tolist() == [0.0] and timed.duration() == 0.0
+    assert timed.time.tolist() == [0.0] and timed.duration == 0.0
 
 
 def test_arrays_are_copies(robot):

@@ -47,7 +47,7 @@ void bind_timing(py::module_& m) {
       .def_property_readonly("positions", &positions, "(n, joints) arm joint values [rad].")
       .def_property_readonly("opening", &openings, "(n,) distance between the pads [m].")
       .def_readonly("configurations", &TimedPath::configurations, "One Configuration per time.")
-      .def("duration", &TimedPath::duration, "Time of the last row [s].")
+      .def_property_readonly("duration", &TimedPath::duration, "Time of the last row [s].")
       .def("__len__", [](const TimedPath& timed) { return timed.time.size(); });
   m.def("time_path", &time_path, "robot"_a, "path"_a, "options"_a = TimingOptions(),
         py::call_guard<py::gil_scoped_release>(),
@@ -105,7 +105,7 @@ void bind_sampling(py::module_& m) {
       .def_readonly("iterations", &MotionResult::iterations, "States sampled.")
       .def_readonly("planner", &MotionResult::planner, "'straight' or 'RRT-Connect'.")
       .def_readonly("reason", &MotionResult::reason, "Why not found, with names and numbers.")
-      .def("found", &MotionResult::found)
+      .def_property_readonly("found", &MotionResult::found)
       .def("__bool__", &MotionResult::found);
   m.def("plan_by_sampling", &plan_by_sampling, "checker"_a, "start"_a, "goals"_a,
         "options"_a = SamplingOptions(), py::call_guard<py::gil_scoped_release>(),
