@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from handey import _core
 from handey.errors import InvalidInput
+from handey.robot_file import load_robot
+
+PUMA = Path(__file__).parents[1] / "models" / "robots" / "puma560" / "robot.yaml"
 
 CELL = 0.004
 
@@ -71,8 +75,7 @@ def test_a_slide_ends_on_its_target_and_asks_before_each_step():
     assert (result.path[-1].x, result.path[-1].y) == (0.16, 0.08)
     assert len(asked) == len(result.path)
     steps = [
-        math.hypot(b.x - a.x, b.y - a.y)
-        for a, b in zip(result.path, result.path[1:], strict=False)
+        math.hypot(b.x - a.x, b.y - a.y) for a, b in zip(result.path, result.path[1:], strict=False)
     ]
     assert max(steps) <= CELL + 1e-12
 
@@ -97,6 +100,49 @@ def test_what_the_reach_test_raises_comes_out_of_the_slide():
         _core.slide_to_target(
             grid_with(), small_hand(), planar_pose(-0.1, 0, 0), [0.1, 0], reachable
         )
+
+
+def at(x: float, y: float, z: float) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, 3] = [x, y, z]
+    return pose
+
+
+def box(name: str, size: list[float], pose: np.ndarray) -> _core.Body:
+    return _core.Body(name=name, shapes=[_core.Shape(_core.Box(size))], X_WB=pose)
+
+
+def test_the_puma_comes_in_to_a_block_lifts_it_and_every_edge_is_free():
+    robot, _ = load_robot(PUMA)
+    cell = _core.Cell(
+        robot=robot,
+        start=_core.Configuration(robot.home, robot.gripper.max_opening),
+        fixtures=[box("table", [1.6, 1.4, 0.05], at(0.55, 0, -0.025))],
+        parts=[box("block", [0.04, 0.06, 0.05], at(0.5, 0.2, 0.025))],
+    )
+    model = _core.make_collision_model(cell)
+    goal = at(0.5, -0.2, 0.025)
+    scene = _core.GraspScene(model=model, cell=cell, part=0, X_WP_goal=goal)
+    solver = _core.SphericalWristSolver(robot)
+    pair = _core.rank_grasps(cell, 0, goal).ranked[0]
+    aim = _core.find_legal_grasps(scene, solver, pair).poses[0]
+    approach = _core.plan_approach(scene, solver, pair, aim, aim.q_pick[0])
+    assert approach.found, approach.reason
+    end = approach.path[-1]
+    assert np.array_equal(end.q, approach.grasp.q_pick[0])
+    assert _core.certify_path(_core.CollisionChecker(model, cell), approach.path).is_free
+
+    holding = cell.with_held(0, np.linalg.inv(approach.grasp.X_PH))
+    clear = _core.CollisionChecker(model, holding)
+    table = _core.BodyRef(_core.BodyRef.Kind.Fixture, 0)
+    in_contact = _core.CollisionChecker(model, holding, _core.Allowance(held_touches=[table]))
+    start = _core.Configuration(end.q, approach.grasp.width)
+    lift = _core.plan_retreat(in_contact, clear, solver, start, [0, 0, 1])
+    assert lift.found, lift.reason
+    assert _core.certify_path(clear, lift.path[1:]).is_free
+    down = _core.plan_retreat(in_contact, clear, solver, start, [0, 0, -1])
+    assert not down.found
+    assert "table" in down.reason
 
 
 def test_options_are_keywords_and_unknown_ones_are_refused():
