@@ -20,6 +20,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
+import trimesh
 import yaml
 
 import handey
@@ -38,19 +39,29 @@ BASE_RADIUS = 0.26  # of the robot's base and shoulder on the table [m]
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """A part to place: its entry in a cell file, and its bounds in its own frame."""
+    """A part to place: its entry in a cell file, how it is turned to stand, and its bounds when so turned."""
 
     name: str
     entry: dict
+    stand: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
 
 
-def read_part(path: Path, scale: float) -> Part:
+def read_part(path: Path, scale: float, stand: np.ndarray | None = None) -> Part:
     loaded = _core.load_mesh(str(path), scale=[scale] * 3, must_be_closed=True)
-    vertices = np.asarray(loaded.mesh.vertices)
+    stand = np.eye(3) if stand is None else stand
+    vertices = np.asarray(loaded.mesh.vertices) @ stand.T
     entry = {"mesh": str(path.resolve()), "scale": scale}
-    return Part(path.stem, entry, vertices.min(axis=0), vertices.max(axis=0))
+    return Part(path.stem, entry, stand, vertices.min(axis=0), vertices.max(axis=0))
+
+
+def axis_turns() -> list[np.ndarray]:
+    """The six rotations that put another axis of a part upright; the part's own first."""
+    x_up = np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]])
+    y_up = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    upside_down = np.diag([1.0, -1.0, -1.0])
+    return [np.eye(3), upside_down, x_up, upside_down @ x_up, y_up, upside_down @ y_up]
 
 
 def own_parts() -> list[Part]:
@@ -82,7 +93,7 @@ def gap_between(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def random_place(rng: np.random.Generator) -> tuple[np.ndarray, float]:
-    radius, angle = rng.uniform(0.32, 0.66), rng.uniform(-1.3, 1.3)
+    radius, angle = rng.uniform(0.28, 0.85), rng.uniform(-2.2, 2.2)
     xy = np.array([radius * math.cos(angle), radius * math.sin(angle)])
     return xy, rng.uniform(-math.pi, math.pi)
 
@@ -101,9 +112,13 @@ def random_body(rng: np.random.Generator) -> tuple[dict, np.ndarray]:
     return {"sphere": {"radius": radius}}, np.full(3, 2 * radius)
 
 
-def pose(xy: np.ndarray, z: float, yaw: float) -> dict:
+def pose(xy: np.ndarray, z: float, yaw: float, stand: np.ndarray | None = None) -> dict:
     x, y = (round(float(value), 5) for value in xy)
-    return {"xyz": [x, y, round(float(z), 9)], "rpy": [0, 0, round(float(yaw), 5)]}
+    matrix = np.eye(4)
+    matrix[:2, :2] = turn(yaw)
+    matrix[:3, :3] = matrix[:3, :3] @ (np.eye(3) if stand is None else stand)
+    quaternion = [float(value) for value in trimesh.transformations.quaternion_from_matrix(matrix)]
+    return {"xyz": [x, y, round(float(z), 9)], "quat_xyzw": [*quaternion[1:], quaternion[0]]}
 
 
 def find_room(
@@ -131,7 +146,7 @@ def random_cell(rng: np.random.Generator, parts: list[Part], name: str) -> dict 
         if room is None:
             return None
         xy, yaw = room
-        places.append(pose(xy - turn(yaw) @ middle[:2], -float(part.lower[2]), yaw))
+        places.append(pose(xy - turn(yaw) @ middle[:2], -float(part.lower[2]), yaw, part.stand))
     fixtures = {"table": TABLE}
     for i in range(int(rng.integers(0, 7))):
         entry, extent = random_body(rng)
@@ -230,12 +245,15 @@ def is_same(first: handey.Plan, second: handey.Plan, folder: Path) -> bool:
 
 
 def part_groups(folder: Path | None) -> dict[str, list[Part]]:
-    """Our own parts as one group, or each watertight part with an antiparallel pair of parts.json as its own."""
+    """Our own parts as one group, or each watertight part of parts.json that has an antiparallel pair, standing on any of six sides."""
     if folder is None:
         return {"own parts": own_parts()}
     rows = json.loads((folder.parent / "parts.json").read_text())
     rows = [row for row in rows if row["watertight"] and row["antiparallel_pairs_100mm"]]
-    return {row["file"]: [read_part(folder / row["file"], row["scale_to_m"])] for row in rows}
+    return {
+        row["file"]: [read_part(folder / row["file"], row["scale_to_m"], t) for t in axis_turns()]
+        for row in rows
+    }
 
 
 def main() -> int:
