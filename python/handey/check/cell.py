@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from handey.check.depth import column_surface, read_camera, read_heights
+from handey.check.camera import read_camera
+from handey.check.depth import column_surface, read_heights
 from handey.check.robot import Robot, read_robot
 from handey.check.shapes import Shape, box, cylinder, read_mesh, sphere
 from handey.check.values import Array, fault, keys, load_yaml, number, pose, positive, text, vector
@@ -211,13 +212,6 @@ class _Reader:
             side = positive(value["cell"], self.file, f"{place}.cell")
             shape = column_surface(heights, side)
         else:
-            value = keys(
-                value,
-                self.file,
-                place,
-                ("depth", "intrinsics"),
-                ("scale", "pose", "far", "explained"),
-            )
             shape = read_camera(self.path.parent, value, self.file, place, cell)
         return Body(name, [shape], pose(value.get("pose"), self.file, f"{place}.pose"))
 

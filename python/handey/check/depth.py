@@ -1,4 +1,4 @@
-"""Obstacles known only by measurement, as closed surfaces.
+"""Maps of heights as obstacles: closed surfaces.
 
 A map of heights stands for one square column per entry; what was not measured is as high as the
 highest. The surface of all columns is one mesh: tops, bottoms and the walls where neighbours
@@ -8,17 +8,13 @@ differ.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from handey.check.shapes import Shape
 from handey.check.values import Array, fault
 
-if TYPE_CHECKING:
-    from handey.check.cell import Cell
-
-__all__ = ["column_surface", "read_camera", "read_heights"]
+__all__ = ["column_surface", "read_heights", "surface_of"]
 
 
 def read_heights(path: Path, file: str, place: str) -> Array:
@@ -62,18 +58,13 @@ def column_surface(heights: Array, side: float) -> Shape:
         # by itself.
         corners = [(x0, y0, zb), (x1, y1, zb), (x1, y1, za), (x0, y0, za)]
         quads.append(np.stack([np.stack(corner, axis=-1) for corner in corners], axis=1))
-    return _surface(np.vstack(quads))
+    return surface_of(np.vstack(quads))
 
 
-def _surface(quads: Array) -> Shape:
+def surface_of(quads: Array) -> Shape:
     """Quads (n, 4, 3) as one closed surface; equal vertices are made one."""
     n = len(quads)
     corners = np.arange(4 * n).reshape(n, 4)
     faces = np.vstack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     points, index = np.unique(np.round(quads.reshape(-1, 3), 9), axis=0, return_inverse=True)
     return Shape("mesh", (), np.eye(4), points, index.reshape(-1)[faces], closed=True, convex=False)
-
-
-def read_camera(folder: Path, value: dict[str, Any], file: str, place: str, cell: Cell) -> Shape:
-    """The space behind the pixels of a depth image."""
-    raise fault("E_UNSUPPORTED", file, place, "depth images are not checked yet")

@@ -400,13 +400,23 @@
     tag.style.setProperty("--c", partColour(i));
     return tag;
   });
-  const labels = (view, parts, w, h) => tags.forEach((tag, i) => {
-    const p = at(parts[i], tops[i].centre);
-    p[2] += tops[i].radius + 0.03;
-    const depth = view[3] * p[0] + view[7] * p[1] + view[11] * p[2] + view[15], q = at(view, p);
-    tag.hidden = depth <= 0;
-    tag.style.transform = `translate(${(0.5 + 0.5 * q[0] / depth) * w}px, ${(0.5 - 0.5 * q[1] / depth) * h}px) translate(-50%, -100%)`;
-  });
+  const labels = (view, parts, w, h) => {
+    const placed = [];
+    tags.map((tag, i) => {
+      const p = at(parts[i], tops[i].centre);
+      p[2] += tops[i].radius + 0.03;
+      const depth = view[3] * p[0] + view[7] * p[1] + view[11] * p[2] + view[15], q = at(view, p);
+      tag.hidden = depth <= 0;
+      return { tag, x: (0.5 + 0.5 * q[0] / depth) * w, y: (0.5 - 0.5 * q[1] / depth) * h };
+    }).sort((a, b) => b.y - a.y).forEach(({ tag, x, y }) => {  // the lower stay, the others make room
+      const half = tag.textContent.length * 3.6 + 14;
+      for (const other of placed) {
+        if (Math.abs(x - other.x) < half + other.half && Math.abs(y - other.y) < 19) y = other.y - 19;
+      }
+      placed.push({ x, y, half });
+      tag.style.transform = `translate(${x}px, ${y}px) translate(-50%, -100%)`;
+    });
+  };
   const table = $("joints").querySelector("tbody");
   const lines = [...scene.robot.arm.map((name, i) => {
     const joint = scene.robot.joints.find((j) => j.index === i);
