@@ -1,4 +1,4 @@
-"""The C++ floors: a floor includes only itself and floors below it, and public headers see only std and Eigen."""
+"""The C++ floors: includes go down only, and public headers see only std and Eigen."""
 
 from __future__ import annotations
 

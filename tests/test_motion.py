@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,9 @@ def robot():
 def checker(robot):
     """The Puma before a wall 0.8 m high that the stretched arm must be lifted over."""
     wall = _core.Body(
-        name="wall", shapes=[_core.Shape(geometry=_core.Box([0.5, 0.02, 0.8]))], X_WB=at(0.75, 0, 0.4)
+        name="wall",
+        shapes=[_core.Shape(geometry=_core.Box([0.5, 0.02, 0.8]))],
+        X_WB=at(0.75, 0, 0.4),
     )
     start = _core.Configuration(q=robot.home, opening=0.1)
     cell = _core.Cell(name="wall", robot=robot, start=start, fixtures=[wall], parts=[])
@@ -59,7 +62,7 @@ def test_lifts_the_arm_over_a_wall(checker):
     assert np.array_equal(path[0], rows([stretched(0.9)])[0])
     assert np.array_equal(path[-1], rows([stretched(-0.9)])[0])
     assert _core.certify_path(checker, result.path).is_free
-    for a, b in zip(path[:-1], path[1:], strict=True):
+    for a, b in itertools.pairwise(path):
         for share in np.linspace(0, 1, 300):
             row = a + share * (b - a)
             assert checker.is_free(_core.Configuration(q=row[:-1], opening=row[-1]), 5e-5)
@@ -68,7 +71,9 @@ def test_lifts_the_arm_over_a_wall(checker):
 def test_the_same_seed_gives_the_same_path_and_another_another(checker):
     def plan(seed: int) -> np.ndarray:
         options = _core.SamplingOptions(seed=seed)
-        return rows(_core.plan_by_sampling(checker, stretched(0.9), [stretched(-0.9)], options).path)
+        return rows(
+            _core.plan_by_sampling(checker, stretched(0.9), [stretched(-0.9)], options).path
+        )
 
     first, other = plan(3), plan(4)
     assert np.array_equal(first, plan(3))
