@@ -48,7 +48,7 @@ class Step:
         goal: index in the cell's task of the goal that the step serves.
         part: the held part's name, None if the hand is empty.
         part_in_grasp_frame: X_HP (4, 4), None if the hand is empty.
-        time: from 0, never decreasing (n,) [s].
+        time: on the clock of the whole plan, which starts at 0; never decreasing (n,) [s].
         positions: of the arm joints (n, dof) [rad].
         opening: distance between the pads (n,) [m].
     """
@@ -83,7 +83,7 @@ class Step:
     @property
     def duration_s(self) -> float:
         """How long the step takes [s]."""
-        return float(self.time[-1])
+        return float(self.time[-1] - self.time[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +117,8 @@ class Plan:
 
     @property
     def duration_s(self) -> float:
-        """How long the motion takes, without pauses between steps [s]."""
-        return sum(step.duration_s for step in self.steps)
+        """How long the plan takes from its start to its last row [s]."""
+        return float(self.steps[-1].time[-1]) if self.steps else 0.0
 
     @property
     def regrasps(self) -> int:

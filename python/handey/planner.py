@@ -256,8 +256,16 @@ def _grasps(
 
 
 def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
+    fallen = {
+        "with too little contact": legal.too_little_contact,
+        "out of reach at the origin": legal.unreachable_at_origin,
+        "out of reach at the destination": legal.unreachable_at_destination,
+        "in collision at the origin": legal.collides_at_origin,
+        "in collision at the destination": legal.collides_at_destination,
+    }
+    counts = ", ".join(f"{count} {where}" for where, count in fallen.items() if count)
     name = f"faces {pair.pair.face_a}/{pair.pair.face_b}, {1e3 * pair.pair.width:.1f} mm"
-    return f"{name}: none of {legal.tried} hand poses is legal at both ends; {legal.worst_reason}"
+    return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
 
 
 def _report_ranking(report: GoalReport, ranking: _core.Ranking) -> None:

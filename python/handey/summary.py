@@ -57,9 +57,9 @@ def plan_lines(
         lines += _goal_lines(plan, index, str(goal), report.goals[index].grasp)
     seconds = f"{plan.duration_s:.2f} s in {len(plan.steps)} steps"
     lines.append(f"  motion: {seconds}, regrasps: {report.regrasps}")
-    stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report.stages.items())
-    clock = f"{report.wall_s:.2f} s on the clock"
-    lines.append(f"  planning: {report.cpu_s:.2f} s CPU ({stages}), {clock}")
+    stages = ", ".join(f"{stage} {1e3 * s:.1f}" for stage, s in report.stages.items())
+    clock = f"{1e3 * report.wall_s:.0f} ms on the clock"
+    lines.append(f"  planning: {1e3 * report.cpu_s:.0f} ms CPU ({stages}), {clock}")
     if math.isfinite(checked.least_clearance):
         lines.append(f"  least clearance: {checked.least_clearance * 1e3:.2f} mm")
     return lines + (_attempts(result) if verbose else [])

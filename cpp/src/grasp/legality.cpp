@@ -82,7 +82,7 @@ LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolve
   // Contact does not depend on the hand's half-turn.
   result.tried = result.too_little_contact = list.too_little_contact;
   for (int i = 0; i < list.too_little_contact; ++i) {
-    tally.add("contact", "a pad has too little contact on the free faces (" +
+    tally.add(grasp::Stage::Contact, "contact", "a pad has too little contact on the free faces (" +
                              square_millimetres(demand.required) + " are needed, " +
                              square_millimetres(demand.best) + " is the most at any target)");
   }
@@ -131,7 +131,7 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
   grasp_pose.contact_area = pad_contact_area(pair.unobstructed, pose, gripper);
   if (grasp_pose.contact_area < demand.required) {
     result.too_little_contact = 1;
-    tally.add("contact", "a pad has " + square_millimetres(grasp_pose.contact_area) +
+    tally.add(grasp::Stage::Contact, "contact", "a pad has " + square_millimetres(grasp_pose.contact_area) +
                              " of contact on the free faces, " +
                              square_millimetres(demand.required) + " are needed");
   } else {

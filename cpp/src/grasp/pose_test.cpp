@@ -24,8 +24,8 @@ void add_names(std::set<std::string>& names, const RobotBody& body) {
 
 }  // namespace
 
-void Tally::add(const std::string& kind, const std::string& text, double excess) {
-  Reason& reason = reasons_[kind];
+void Tally::add(Stage stage, const std::string& kind, const std::string& text, double excess) {
+  Reason& reason = reasons_[{stage, kind}];
   if (reason.count == 0 || excess < reason.excess) {
     reason.text = text;
     reason.excess = excess;
@@ -35,8 +35,10 @@ void Tally::add(const std::string& kind, const std::string& text, double excess)
 
 std::string Tally::worst(int tried) const {
   const Reason* worst = nullptr;
-  for (const auto& [kind, reason] : reasons_) {
-    if (worst == nullptr || reason.count > worst->count) worst = &reason;
+  Stage farthest = Stage::Contact;
+  for (const auto& [key, reason] : reasons_) {
+    if (worst == nullptr || key.first > farthest || reason.count > worst->count) worst = &reason;
+    farthest = key.first;  // the map is ordered by stage
   }
   if (worst == nullptr) return "";
   return worst->text + ": " + std::to_string(worst->count) + " of " + std::to_string(tried);
@@ -90,7 +92,8 @@ std::vector<InverseSolution> PoseTester::inverse(const End& end, const Pose& X_P
     const std::string kind = std::string(end.label) +
                              std::to_string(static_cast<int>(result.status)) + "/" +
                              std::to_string(result.joint);
-    tally.add(kind, result.reason + " (" + end.label + ")", result.excess);
+    const Stage stage = &end == &origin_ ? Stage::ReachOrigin : Stage::ReachDestination;
+    tally.add(stage, kind, result.reason + " (" + end.label + ")", result.excess);
   }
   return std::move(result.solutions);
 }
@@ -199,7 +202,7 @@ PoseVerdict PoseTester::test(const FacePair& pair, GraspPose& pose, Tally& tally
     if (obstacle) {
       const std::string text = display_name(obstacle->hit.a) + " hits " +
                                display_name(obstacle->hit.b) + " (" + end->label + ")";
-      tally.add(text, text);
+      tally.add(end == &origin_ ? Stage::ClearOrigin : Stage::ClearDestination, text, text);
     }
     break;
   }

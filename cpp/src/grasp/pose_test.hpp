@@ -5,19 +5,24 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "handey/grasp/legality.hpp"
 
 namespace handey::grasp {
 
+/// The tests of a candidate in their order.
+enum class Stage { Contact, ReachOrigin, ReachDestination, ClearOrigin, ClearDestination };
+
 /// Counts why candidates fell.
 class Tally {
  public:
   /// @param kind  what is counted together  @param text  how it reads  @param excess  the text of
   /// the least is kept
-  void add(const std::string& kind, const std::string& text, double excess = 0.0);
-  /// "text: 14 of 48" for the kind met most often, empty if none.
+  void add(Stage stage, const std::string& kind, const std::string& text, double excess = 0.0);
+  /// "text: 14 of 48" for the kind met most often among the candidates that got farthest, because
+  /// that is what stands in the way; empty if none fell.
   std::string worst(int tried) const;
 
  private:
@@ -26,7 +31,7 @@ class Tally {
     std::string text;
     double excess = 0.0;
   };
-  std::map<std::string, Reason> reasons_;
+  std::map<std::pair<Stage, std::string>, Reason> reasons_;
 };
 
 enum class PoseVerdict {

@@ -109,12 +109,12 @@ double nearest_turn(double angle, double reference) {
 }
 
 std::string reach_text(InverseStatus status, double excess) {
-  const std::string metres = number_text(excess, 3) + " m";
+  const std::string distance = number_text(1e3 * excess, 3) + " mm";
   if (status == InverseStatus::InsideShoulderCylinder) {
-    return "wrist centre " + metres + " inside the cylinder about axis 1 that it cannot enter";
+    return "wrist centre " + distance + " inside the cylinder about axis 1 that it cannot enter";
   }
-  if (status == InverseStatus::TooFar) return "wrist centre " + metres + " beyond reach";
-  return "wrist centre " + metres + " too close to axis 2";
+  if (status == InverseStatus::TooFar) return "wrist centre " + distance + " beyond reach";
+  return "wrist centre " + distance + " too close to axis 2";
 }
 
 }  // namespace

@@ -245,7 +245,7 @@ TEST(SphericalWrist, SaysHowFarBeyondReach) {
   const InverseResult result = solver.solve(looking_down({reach + 0.1, -kD3, kShoulderHeight}));
   EXPECT_EQ(result.status, InverseStatus::TooFar);
   EXPECT_NEAR(result.excess, 0.1, 1e-9);
-  EXPECT_EQ(result.reason, "wrist centre 0.1 m beyond reach");
+  EXPECT_EQ(result.reason, "wrist centre 100 mm beyond reach");
 }
 
 TEST(SphericalWrist, SaysHowFarInsideTheShoulderCylinder) {

@@ -60,8 +60,8 @@ struct LegalGrasps {
   // How many candidates fell, and where:
   int tried = 0, too_little_contact = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
       collides_at_origin = 0, collides_at_destination = 0;
-  std::string worst_reason;  ///< met most often: "hand hits table (destination): 14 of 48";
-                             ///< empty if none fell
+  std::string worst_reason;  ///< of those that got farthest, the one met most often: "hand hits
+                             ///< table (destination): 14 of 48"; empty if none fell
 };
 
 /// Candidates are tested in the order of the part of their merit that costs nothing to know.

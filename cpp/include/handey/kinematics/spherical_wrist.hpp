@@ -35,7 +35,7 @@ struct InverseResult {
   double excess = 0.0;  ///< how far out of reach [m], or past its limit the nearest branch's worst
                         ///< joint is [rad]
   int joint = -1;       ///< that joint, for OutsideLimits
-  std::string reason;   ///< for people: "wrist centre 0.112 m beyond reach", "joint5 0.20 rad past
+  std::string reason;   ///< for people: "wrist centre 112 mm beyond reach", "joint5 0.20 rad past
                         ///< its limit"
 };
 
