@@ -1,4 +1,4 @@
-"""Grasp planning, steps 1 to 3: which face pairs stay free of what stands near, here and at the goal.
+"""Grasp planning, steps 1 to 3: which face pairs stay free of what stands near, at both ends.
 
 Usage: 02_planar_faces_and_grasps.py MODELS
 """
