@@ -75,6 +75,11 @@ def test_reads_a_plan_from_a_file_and_reports_as_json(cell, valid, tmp_path):
 # -------------------------------------------------------------------------------- form of the plan
 
 
+def test_finds_a_report_that_is_no_mapping(cell, plan):
+    plan["report"] = [1]
+    assert clauses(check(cell, plan)) == {"format"}
+
+
 def test_finds_missing_keys(cell, plan):
     del plan["placements"]
     assert clauses(check(cell, plan)) == {"format"}
@@ -109,6 +114,17 @@ def test_finds_wrong_heads(cell, plan, key, value):
 def test_finds_wrong_values_of_a_step(cell, plan, key, value):
     plan["steps"][0][key] = value
     assert clauses(check(cell, plan)) == {"format"}
+
+
+def test_takes_neither_texts_nor_truths_for_numbers(cell, plan):
+    grip = plan["steps"][step_of(plan, "depart")]["part_in_grasp_frame"]
+    grip["xyz"] = [str(x) for x in grip["xyz"]]
+    plan["steps"][0]["time"][0] = False
+    plan["steps"][1]["positions"][0][0] = 1e300
+    plan["placements"]["block"] = None
+    report = check(cell, plan)
+    assert clauses(report) == {"format"}
+    assert len(report.faults) == 4
 
 
 def test_refuses_what_is_no_plan_at_all(cell, tmp_path):
@@ -462,6 +478,43 @@ def test_accepts_a_regrasp_on_a_support_and_on_nothing_else(cell, tmp_path):
     assert clauses(report) == {"support"}
 
 
+def drawn_out(cell):
+    """The block is drawn sideways out from under what stands on it."""
+    maker = PlanMaker(cell)
+    pick, put = BLOCK @ X_PH, BLOCK_GOAL @ X_PH
+    held = {"part": "block", "X_HP": np.linalg.inv(X_PH)}
+
+    def moved(X, x=0.0, z=0.0):
+        return X + np.array([[0, 0, 0, x], [0, 0, 0, 0], [0, 0, 0, z], [0, 0, 0, 0]])
+
+    # The hand comes from the side too: what stands on the block is to stay.
+    start = hand_made.solve(maker.cell, moved(pick, 0.08), maker.near_start)
+    maker.move("transit", hand_made.solve(maker.cell, moved(pick, 0.08, 0.12), maker.near_start), 0.07)
+    maker.move("transit", start)
+    maker.slide("approach", pick)
+    maker.grip("grasp", 0.04)
+    maker.slide("depart", moved(pick, 0.08), rows=60, **held)
+    maker.slide("transfer", moved(pick, 0.08, 0.12), rows=60, **held)
+    maker.move("transfer", hand_made.solve(maker.cell, moved(put, 0, 0.12), maker.q), **held)
+    maker.slide("deposit", put, rows=60, **held)
+    maker.grip("release", 0.07)
+    maker.slide("withdraw", moved(put, 0, 0.12))
+    maker.placements["block"] = {"xyz": [0.50, -0.15, 0.025]}
+    maker.finish()
+    return maker.plan()
+
+
+def test_finds_a_part_drawn_from_under_another(tmp_path):
+    def report(tile):
+        cell = write_cell(tmp_path, parts={"tile": tile})
+        return check(cell, drawn_out(cell))
+
+    on_it = {"box": [0.02, 0.02, 0.005], "pose": {"xyz": [0.50, 0.15, 0.0525]}}
+    assert clauses(report(on_it)) == {"stability"}
+    beside_it = {"box": [0.02, 0.02, 0.005], "pose": {"xyz": [0.40, 0.15, 0.0025]}}
+    assert report(beside_it).ok, str(report(beside_it))
+
+
 # ------------------------------------------------------------------------------------------- goals
 
 
@@ -513,6 +566,16 @@ def test_finds_goals_in_a_wrong_order(tmp_path, cell):
     assert "goal" in clauses(
         check(write_cell(tmp_path, task=[*hand_made.CELL["task"], there]), plan)
     )
+
+
+def test_finds_a_goal_that_changes_in_the_middle_of_a_turn(tmp_path, cell):
+    there = {"place": "block", "at": {"xyz": [0.6, 0.0, 0.025]}}
+    two = write_cell(tmp_path, task=[there, *hand_made.CELL["task"]])
+    for first, fine in ((6, False), (7, False), (8, True), (10, False), (11, False)):
+        plan = regrasp(cell)
+        for step in plan["steps"][first:]:
+            step["goal"] = 1
+        assert check(two, plan).ok is fine, f"from step {first}"
 
 
 @pytest.mark.parametrize(

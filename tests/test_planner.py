@@ -49,6 +49,55 @@ def test_cell_is_planned_and_the_plan_is_valid(path: Path, tmp_path: Path) -> No
     assert checked.ok, "\n".join(map(str, checked.faults))
 
 
+def write_cell(folder: Path, **changes: object) -> Path:
+    """A block on a table; `changes` replace keys of the cell."""
+    cell = {
+        "handey_cell": 1,
+        "name": "block",
+        "robot": {"file": str(random_cells.ROBOT)},
+        "fixtures": {"table": random_cells.TABLE},
+        "parts": {"block": block_at(0.15)},
+        **changes,
+    }
+    path = folder / "cell.yaml"
+    path.write_text(json.dumps(cell))
+    return path
+
+
+def block_at(y: float, z: float = 0.025) -> dict[str, object]:
+    return {"box": [0.06, 0.04, 0.05], "pose": {"xyz": [0.5, y, z]}}
+
+
+def to(y: float, part: str = "block") -> dict[str, object]:
+    return {"place": part, "at": {"xyz": [0.5, y, 0.025]}}
+
+
+@pytest.mark.parametrize("goals", [(-0.15, 0.15), (-0.15, -0.15), (-0.15, -0.15003)])
+def test_one_part_may_have_several_goals(goals: tuple[float, ...], tmp_path: Path) -> None:
+    """There and back, there twice, there and nearly there: back home in the end, and only then."""
+    path = write_cell(tmp_path, task=[to(y) for y in goals])
+    result = handey.plan(path)
+    assert result.plan is not None, "\n".join(result.report.reasons)
+    assert handey.check(path, result.plan).ok, str(handey.check(path, result.plan))
+    assert set(result.plan.placements) == {"block"}
+    home = handey.load_cell(path).cell.start.q
+    ends = [bool((abs(step.positions[-1] - home) < 1e-9).all()) for step in result.plan.steps]
+    assert ends == [False] * (len(ends) - 1) + [True]
+
+
+def test_what_stands_on_a_part_is_moved_first_or_named(tmp_path: Path) -> None:
+    parts = {"block": block_at(0.15), "top": block_at(0.15, 0.075)}
+    alone = handey.plan(write_cell(tmp_path, parts=parts, task=[to(-0.15)]))
+    assert alone.plan is None
+    assert any("top would fall" in reason for reason in alone.report.reasons)
+    goals = [to(-0.15), to(0.0, "top")]
+    path = write_cell(tmp_path, parts=parts, task=goals, order="any")
+    result = handey.plan(path)
+    assert result.plan is not None, "\n".join(result.report.reasons)
+    assert handey.check(path, result.plan).ok
+    assert result.plan.steps[0].goal == 1
+
+
 @pytest.mark.parametrize("path", IMPOSSIBLE, ids=name)
 def test_impossible_cell_gets_a_reason_and_no_plan(path: Path) -> None:
     result = handey.plan(handey.load_cell(path))

@@ -140,6 +140,16 @@ def find_reach(
         closing = _core.certify_edge(
             standing, path[-1], _at(q, grasp.width + 2 * CLOSING_GAP), options.approach.certificate
         )
+        if closing.is_free:
+            # All the way: what stands close beside the part must not get between the pads.
+            closing = _core.certify_edge(
+                _core.CollisionChecker(
+                    work.model, scene.cell, _core.Allowance(closed_on=scene.part)
+                ),
+                path[-1],
+                _at(q, grasp.width),
+                options.approach.certificate,
+            )
         if not closing.is_free:
             return Carry("approach", f"the closing fingers meet {closing.hit.b}")
         depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, options)
@@ -279,6 +289,14 @@ def _withdraw(
             opened,
             options.approach.certificate,
         )
+        if opening.is_free:
+            closed_on = _core.Allowance(closed_on=scene.part)
+            opening = _core.certify_edge(
+                _core.CollisionChecker(work.model, goal_cell, closed_on),
+                _at(q_place, grasp.width),
+                opened,
+                options.approach.certificate,
+            )
         if not opening.is_free:
             return [], f"the opening fingers meet {opening.hit.b}"
         hand = _core.hand_in_world(goal_cell, q_place)
@@ -295,7 +313,7 @@ def _withdraw(
             model=work.model, cell=goal_cell, part=scene.part, X_WP_goal=scene.X_WP_goal
         )
         slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
-        if slide and np.allclose(slide.path[-1].q, q_place, atol=1e-9):
+        if slide and np.array_equal(slide.path[-1].q, q_place):
             return list(slide.path)[::-1], ""
     return [], reason
 

@@ -26,6 +26,7 @@ from handey.pick_and_place import (
     carry_through,
     find_reach,
 )
+from handey.placement import stands_stably
 from handey.plan import Plan, Step
 from handey.report import Attempt, GoalReport, Report, StageClock
 from handey.task import PlaceAt
@@ -118,7 +119,7 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
         cell=cell_file.name,
         joints=[joint.name for joint in cell_file.cell.robot.joints],
         steps=progress.steps,
-        placements=_placements(cell_file, progress.cell),
+        placements=_placements(progress),
     )
     report.duration_s = round(progress.clock, 6)
     return PlanResult(replace(result, report=report.as_dict()), report)
@@ -183,9 +184,10 @@ def _plan_goals(
                 goal_report.status = "met already"
                 done = index
                 break
-            is_last = all(i == index or _is_met(progress.cell, goals[i]) for i in pending)
-            home = cell_file.cell.start.q if is_last and task.return_to_start else None
             part = progress.cell.part_index(goal.part)
+            after = progress.cell.with_part_at(part, goal.X_WP)
+            is_last = all(i == index or _is_met(after, goals[i]) for i in pending)
+            home = cell_file.cell.start.q if is_last and task.return_to_start else None
             scene = _core.GraspScene(model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP)
             work = Workspace(model, scene, solver, progress.current, home, clock)
             carry = _plan_goal(work, options, goal_report, stop_at)
@@ -204,6 +206,12 @@ def _plan_goal(
 ) -> Carry | None:
     """Steps 1 to 6 for one goal: the first grasp that can be carried through."""
     scene = work.scene
+    carried = _carried_by(work)
+    if carried:
+        report.funnel, report.attempts, report.status = {}, [], "failed"
+        name = scene.cell.parts[scene.part].name
+        report.reasons = [f"{', '.join(carried)} would fall: standing on {name}, which is to be moved"]
+        return None
     with work.clock("rank grasps"):
         ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
     _report_ranking(report, ranking)
@@ -233,6 +241,21 @@ def _plan_goal(
                 return _planned(report, name, carry)
     report.status = "failed"
     return None
+
+
+def _carried_by(work: Workspace) -> list[str]:
+    """Names of the parts that stand stably with the scene's part in its place, but not without it."""
+    scene = work.scene
+    without = scene.cell.with_held(scene.part, np.eye(4))
+    fallen = []
+    for touched in _core.touching_bodies(work.model, scene.cell, scene.part):
+        if touched.kind != _core.BodyRef.Kind.Part:
+            continue
+        other = scene.cell.parts[touched.index]
+        before = stands_stably(scene.cell, touched.index, other.X_WB)
+        if before and not stands_stably(without, touched.index, other.X_WB):
+            fallen.append(other.name)
+    return fallen
 
 
 def _grasps(
@@ -337,10 +360,7 @@ def _take_over(
     progress.cell = progress.cell.with_part_at(progress.cell.part_index(goal.part), goal.X_WP)
 
 
-def _placements(cell_file: CellFile, cell: _core.Cell) -> dict[str, np.ndarray]:
-    """Where each part that was moved stands in the end."""
-    moved = {}
-    for before, after in zip(cell_file.cell.parts, cell.parts, strict=True):
-        if not np.array_equal(before.X_WB, after.X_WB):
-            moved[after.name] = after.X_WB
-    return moved
+def _placements(progress: _Progress) -> dict[str, np.ndarray]:
+    """Where each part that was moved stands in the end, be it where it stood at first."""
+    moved = {step.part for step in progress.steps}
+    return {part.name: part.X_WB for part in progress.cell.parts if part.name in moved}

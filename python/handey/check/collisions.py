@@ -112,11 +112,12 @@ class Collisions:
         action = actions[row_step[1:]]
         limit = np.where(np.isin(action, ("depart", "deposit")), FINE, COARSE)
         limit = np.where(np.isin(action, ("grasp", "release")), CONTACT / 4, limit)
-        count = np.maximum(np.ceil(bound / limit), 1).astype(int)
+        count = np.maximum(np.ceil(bound / limit), 1)
         if count.sum() > MOST_SAMPLES:
             text = f"the motion is too long to be checked: {bound.sum():.0f} m of joint motion"
             self.report.add("format", text)
             return None
+        count = count.astype(int)
         at = np.append(np.repeat(np.arange(len(count)), count), len(q) - 1)
         starts = np.concatenate([[0], np.cumsum(count)])
         s = np.append(
@@ -286,7 +287,10 @@ class Collisions:
             ]
             off = np.linalg.norm(moved, axis=2).max(axis=1)
             # A convex function of the point: the farthest point of the box is a corner.
-            result.append((np.minimum(off[:-1], off[1:]) <= AT_PLACE, place, nearby))
+            # Where samples are coarse, both ends of an interval must be near the place.
+            nearer, farther = np.minimum(off[:-1], off[1:]), np.maximum(off[:-1], off[1:])
+            fine = np.isin(samples.step, [carry.first, carry.last])
+            result.append((np.where(fine, nearer, farther) <= AT_PLACE, place, nearby))
         return result
 
     def _touches(self, name: str, place: Array, body: Body, pose: Array) -> bool:

@@ -44,6 +44,7 @@ def check_goals(
     """Each goal of the task, in its turn and in the end."""
     order = list(range(len(cell.task)))
     served = list(dict.fromkeys(step.goal for step in plan.steps))
+    # A goal changes between two turns of the loop only.
     changes = [
         step for step, old in zip(plan.steps[1:], plan.steps, strict=False) if step.goal != old.goal
     ]
@@ -56,6 +57,10 @@ def check_goals(
             float(step.time[0]),
             step.action,
         )
+    for old, step in zip(plan.steps, plan.steps[1:], strict=False):
+        if step.goal != old.goal and step.action not in ("transit", "approach"):
+            text = f"serves goal {step.goal}, but the {old.action} before it goal {old.goal}"
+            report.add("goal", text, step.index, float(step.time[0]), step.action)
     if cell.given_order and served != sorted(served):
         report.add("goal", f"goals are served in the order {served}; the cell gives the order")
     if not cell.given_order:

@@ -34,6 +34,7 @@ def check_handling(
             report.add("jump", text, *at)
         _pads(plan, cell, part, carry, report)
         _rest(plan, cell, world, carries, n, report)
+        _others_stand(plan, cell, world, carry, report)
     _placements(plan, carries, world, report)
 
 
@@ -84,6 +85,27 @@ def _rest(
             report.add(
                 "support", f"{part.name}, put down on the way: on supports alone it {text}", *at
             )
+
+
+def _others_stand(
+    plan: PlanData, cell: Cell, world: World, carry: Carry, report: CheckReport
+) -> None:
+    """Nothing else moves: what stood on the part must not fall when it is taken away."""
+    without = world.standing[carry.first]
+    step = plan.steps[carry.first]
+    for other in (part for part in cell.parts if part.name in without):
+        X = without[other.name]
+        triangles = transformed(X, other.triangles().reshape(-1, 3)).reshape(-1, 3, 3)
+        centre = transformed(X, other.centre_of_mass())
+        before = grounds_for(cell, other.name, {**without, carry.part: carry.origin})
+        with_it = standing_on(triangles, centre, before)
+        if carry.part not in with_it.grounds or with_it.fault():
+            continue
+        after = [ground for ground in before if ground.name != carry.part]
+        text = standing_on(triangles, centre, after).fault()
+        if text:
+            text = f"without {carry.part}, {other.name} {text}"
+            report.add("stability", text, step.index, float(step.time[0]), step.action)
 
 
 def _placements(plan: PlanData, carries: list[Carry], world: World, report: CheckReport) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ __all__ = ["ACTIONS", "HELD", "PlanData", "Step", "load_json", "read_plan"]
 ACTIONS = ("transit", "approach", "grasp", "depart", "transfer", "deposit", "release", "withdraw")
 HELD = ("depart", "transfer", "deposit")  # in these a part is in the hand
 MAX_BYTES = 512 * 2**20
+MOST = 1e9  # of a joint value, an opening or a time. Choice: far beyond any robot and any shift
 
 
 @dataclass
@@ -99,7 +101,7 @@ def read_plan(content: Mapping[str, Any], cell: Cell, report: CheckReport) -> Pl
         try:
             if name not in cell.part_names():
                 raise _Form(f"placements: no part {name!r} in the cell")
-            placements[name] = pose(value, "", f"placements.{name}")
+            placements[name] = _pose(value, f"placements.{name}")
         except (_Form, InvalidInput) as error:
             report.add("format", str(error))
     return PlanData(steps, placements) if len(report.faults) == before else None
@@ -118,6 +120,8 @@ def _head(content: Mapping[str, Any], cell: Cell) -> None:
         raise _Form(f"cell: the plan is for {content['cell']!r}, the cell is {cell.name!r}")
     if content["joints"] != cell.robot.joint_names():
         raise _Form(f"joints: expected {cell.robot.joint_names()}, found {content['joints']!r}")
+    if not isinstance(content.get("report", {}), Mapping):
+        raise _Form("report: expected a mapping")
     if not isinstance(content["steps"], list) or not isinstance(content["placements"], Mapping):
         raise _Form("expected a list of steps and a mapping of placements")
 
@@ -144,7 +148,7 @@ def _step(index: int, value: Any, cell: Cell) -> Step:
     if value["part"] is not None and value["part"] not in cell.part_names():
         raise _Form(f"part: no part {value['part']!r} in the cell")
     X_HP = value["part_in_grasp_frame"]
-    X_HP = None if X_HP is None else pose(X_HP, "", "part_in_grasp_frame")
+    X_HP = None if X_HP is None else _pose(X_HP, "part_in_grasp_frame")
     time = _array(value["time"], "time", 1)
     q = _array(value["positions"], "positions", 2)
     opening = _array(value["opening"], "opening", 1)
@@ -165,6 +169,24 @@ def _array(value: Any, name: str, dimensions: int) -> Array:
         raw = np.asarray(value)
     except ValueError as error:
         raise _Form(f"{name}: rows of different lengths") from error
-    if raw.ndim != dimensions or raw.dtype.kind not in "iuf" or not np.isfinite(raw).all():
+    flat = value if dimensions == 1 else chain.from_iterable(value) if raw.ndim == 2 else ()
+    if (
+        raw.ndim != dimensions
+        or raw.dtype.kind not in "iuf"
+        or not np.isfinite(raw).all()
+        or any(isinstance(number, bool) for number in flat)
+    ):
         raise _Form(f"{name}: expected finite numbers in {dimensions} dimension(s)")
+    if raw.size and np.abs(raw).max() > MOST:
+        raise _Form(f"{name}: no motion has numbers beyond {MOST:g}")
     return raw.astype(float)
+
+
+def _pose(value: Any, place: str) -> Array:
+    """A pose as JSON has it: numbers written as texts, which YAML files may have, are none."""
+    if not isinstance(value, Mapping):
+        raise _Form(f"{place}: expected a pose, found {value!r:.60}")
+    for key, numbers in value.items():
+        if isinstance(numbers, list) and any(isinstance(number, str) for number in numbers):
+            raise _Form(f"{place}.{key}: expected numbers, found {numbers!r:.60}")
+    return pose(value, "", place)
