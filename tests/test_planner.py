@@ -122,9 +122,10 @@ def test_bad_cell_is_refused(path: Path) -> None:
         ("impossible_closed_box", ["box"]),
     ],
 )
-def test_the_reason_names_what_and_where(cell: str, words: list[str]) -> None:
-    run = handey_command("plan", CELLS / f"{cell}.yaml", "-o", os.devnull)
-    assert run.returncode == 3
+def test_the_reason_names_what_and_where(cell: str, words: list[str], tmp_path: Path) -> None:
+    out = tmp_path / "plan.json"
+    run = handey_command("plan", CELLS / f"{cell}.yaml", "-o", out)
+    assert run.returncode == 3 and not out.exists()
     for word in words:
         assert word in run.stdout + run.stderr
 

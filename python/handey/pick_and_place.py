@@ -19,6 +19,8 @@ __all__ = ["Carry", "DirectOptions", "Motion", "Placing", "Workspace", "carry_th
 
 # Choice: the pads are certified up to this far from the faces, each side; the last stretch is the contact itself [m].
 CLOSING_GAP = 3e-4
+# Choice: a part that touches more than what it stands on is tried in this many level directions, this far [m].
+DIRECTIONS_AWAY, STEP_AWAY = 16, 1.5e-3
 
 
 @dataclass(frozen=True)
@@ -249,8 +251,9 @@ def _lift(
     )
     clear = _core.CollisionChecker(work.model, held)
     back = -_core.hand_in_world(cell, start.q)[:3, 2]
+    away = _away(work, cell) if len(touches) > 1 else None
     best = None
-    for direction in _directions(back):
+    for direction in _directions(back, away):
         result = _core.plan_retreat(
             in_contact, clear, work.solver, start, direction, options.retreat
         )
@@ -261,11 +264,28 @@ def _lift(
     return best if best is not None else result
 
 
-def _directions(back: np.ndarray) -> list[np.ndarray]:
-    """Straight up first, then up and back, then back along the hand."""
+def _away(work: Workspace, cell: _core.Cell) -> np.ndarray | None:
+    """The middle of the level directions that, with a lift, leave all that the part touches where it stands."""
+    part = work.scene.part
+    X_WP = cell.parts[part].X_WB
+    leaving = []
+    for angle in np.linspace(0.0, 2 * np.pi, DIRECTIONS_AWAY, endpoint=False):
+        aside = np.array([np.cos(angle), np.sin(angle), 0.0])
+        moved = X_WP.copy()
+        moved[:3, 3] += STEP_AWAY * (aside + np.array([0.0, 0.0, 1.0]))
+        if not _core.touching_bodies(work.model, cell.with_part_at(part, moved), part):
+            leaving.append(aside)
+    middle = np.sum(leaving, axis=0) if leaving else np.zeros(3)
+    length = np.linalg.norm(middle)
+    return middle / length if length > 0.1 else None
+
+
+def _directions(back: np.ndarray, away: np.ndarray | None) -> list[np.ndarray]:
+    """Straight up first, then up and away from a wall, then up and back, then back along the hand."""
     up = np.array([0.0, 0.0, 1.0])
+    from_wall = [] if away is None else [up + share * away for share in (0.3, 1.0)]
     slanted = [up + share * back for share in (0.3, 1.0)]
-    candidates = [up, *slanted, back]
+    candidates = [up, *from_wall, *slanted, back]
     unit = [d / np.linalg.norm(d) for d in candidates if np.linalg.norm(d) > 0.1]
     return [d for i, d in enumerate(unit) if all(d @ other < 0.999 for other in unit[:i])]
 

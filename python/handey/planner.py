@@ -214,7 +214,7 @@ def _plan_goal(
         return None
     with work.clock("rank grasps"):
         ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
-    _report_ranking(report, ranking)
+    _report_ranking(report, ranking, options.ranking)
     reaches: list[tuple[str, Reach]] = []
     direct = _with_budget(options, options.sampling_rounds[0])
     for pair, aim in _grasps(work, ranking, options, report):
@@ -291,7 +291,9 @@ def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
     return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
 
 
-def _report_ranking(report: GoalReport, ranking: _core.Ranking) -> None:
+def _report_ranking(
+    report: GoalReport, ranking: _core.Ranking, options: _core.RankingOptions
+) -> None:
     # A goal may be tried again from another state of the cell: only the last try is told.
     report.funnel, report.reasons, report.attempts = {}, [], []
     spanned = len(ranking.ranked) + len(ranking.obstructed)
@@ -299,9 +301,15 @@ def _report_ranking(report: GoalReport, ranking: _core.Ranking) -> None:
     report.add("face pairs", spanned + len(ranking.rejected))
     report.add("spanned by the jaws", spanned)
     report.add("unobstructed", len(ranking.ranked))
-    if not spanned and not ranking.rejected:
+    if not ranking.faces:
+        least = 1e6 * options.features.least_face_area
+        report.reasons.append(f"the part has no flat face of {least:g} mm2 or more for a pad to lie on")
+    elif not spanned and not ranking.rejected:
         report.reasons.append("no two faces of the part are parallel and face away from each other")
-    report.reasons += [f"faces {r.face_a}/{r.face_b}: {r.reason}" for r in ranking.rejected]
+    rejected: dict[str, list[str]] = {}
+    for pair in ranking.rejected:
+        rejected.setdefault(pair.reason, []).append(f"{pair.face_a}/{pair.face_b}")
+    report.reasons += [f"faces {', '.join(pairs)}: {why}" for why, pairs in rejected.items()]
     for pair in ranking.obstructed:
         name = f"faces {pair.pair.face_a}/{pair.pair.face_b}"
         blocked = 100 * (1 - pair.share)

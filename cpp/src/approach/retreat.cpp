@@ -114,7 +114,7 @@ std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
   const std::string deeper = deepening(in_contact.cell(), a, b, direction);
   if (!deeper.empty()) return deeper;
   const std::optional<Hit> hit = clear.find_hit(b, options.certificate.clearance);
-  return hit ? describe(*hit) + " even there" : "";
+  return hit ? hit->a + " does not come clear of " + hit->b : "";
 }
 
 }  // namespace
