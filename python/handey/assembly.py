@@ -7,6 +7,7 @@ are none, what cannot be is refused (`handey.refusals`).
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -133,5 +134,6 @@ def _at_mesh(fault: Fault, mesh: Mesh, shape: ShapeEntry) -> Fault:
     """The fault of a mesh, told at the place of the cell file that names the mesh."""
     file = os.fspath(mesh.file)
     within = fault.place[len(file) :].lstrip(": ") if fault.place.startswith(file) else fault.place
+    within = re.sub(r"^(\d+)$", r"line \1", within)
     message = ": ".join(part for part in (shape.field.value, within, fault.message) if part)
     return Fault(fault.code, str(shape.field), message, shape.field.document.file)

@@ -101,7 +101,7 @@ def read_body(name: str, field: Field, is_part: bool) -> BodyEntry | None:
     shapes = _read_shapes(field, entries)
     flags = {key: key in entries and entries[key].flag() for key in ("support", "may_move")}
     friction = (
-        entries["friction"].number(least=0.0, most=10.0) if "friction" in entries else FRICTION
+        entries["friction"].number(above=0.0, most=10.0) if "friction" in entries else FRICTION
     )
     mass = entries["mass"].number(above=0.0) if "mass" in entries else None
     density = entries["density"].number(above=0.0) if "density" in entries else None

@@ -31,6 +31,7 @@ from handey.terminal import complain
 
 __all__ = ["main", "run"]
 
+MOST_FAULTS = 100  # Choice: more than anyone reads at once
 GREATEST_SEED = 2**64 - 1
 
 
@@ -52,8 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status: int = options.run(options)
         sys.stdout.flush()
     except InvalidInput as error:
-        for fault in error.faults:
+        for fault in error.faults[:MOST_FAULTS]:
             complain(str(fault))
+        if len(error.faults) > MOST_FAULTS:
+            complain(f"{len(error.faults) - MOST_FAULTS} more faults are not shown")
         return BAD_INPUT
     except KeyboardInterrupt:
         complain("interrupted")

@@ -120,16 +120,21 @@ def build_robot(entry: RobotEntry) -> tuple[_core.Robot, list[str]]:
         loaded = _core.load_robot(os.fspath(entry.urdf), description)
     except InvalidInput as error:
         raise InvalidInput([_in_file(fault, entry) for fault in error.faults]) from None
-    return loaded.robot, [f"{entry.urdf}: {warning}" for warning in loaded.warnings]
+    return loaded.robot, [f"{entry.urdf}: {_within(entry.urdf.name, warning)}" for warning in loaded.warnings]
 
 
 def _in_file(fault: Fault, entry: RobotEntry) -> Fault:
     """The fault with its file: the URDF, whose name then starts the place, or the robot file."""
     for name in (os.fspath(entry.urdf), entry.urdf.name):
         if fault.place.startswith(name):
-            place = re.sub(r"^(\d+)", r"line \1", fault.place[len(name) :].lstrip(": "))
+            place = _within(name, fault.place)
             return Fault(fault.code, place, fault.message, os.fspath(entry.urdf))
     return Fault(fault.code, fault.place, fault.message, fault.file or os.fspath(entry.file))
+
+
+def _within(name: str, place: str) -> str:
+    """The place without the file's name before it: "line 12: joint 'joint2'"."""
+    return re.sub(r"^(\d+)", r"line \1", place.removeprefix(name).lstrip(": "))
 
 
 def _distinct(field: Field, what: str) -> tuple[str, ...] | None:

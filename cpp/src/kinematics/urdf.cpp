@@ -101,9 +101,11 @@ LoadedRobot load_robot(const std::string& urdf_path, const RobotDescription& des
   findings.file = std::filesystem::path(urdf_path).filename().string();
   check_schema(root, findings);
   if (root.name == "robot") check_values(root, findings);
-  const bool walkable = root.name == "robot" &&
-                        std::none_of(findings.faults.begin(), findings.faults.end(),
-                                     [](const Fault& fault) { return fault.code == "E_TOO_BIG"; });
+  const bool walkable =
+      root.name == "robot" &&
+      std::none_of(findings.faults.begin(), findings.faults.end(), [](const Fault& fault) {
+        return fault.code == "E_TOO_BIG" || fault.code == "E_EMPTY";
+      });
   if (!walkable) findings.throw_if_any();
   check_tree(root, findings);
   const MeshReferences references(urdf_path, description.packages);

@@ -4,6 +4,10 @@
 
 namespace handey::kinematics {
 
+namespace {
+constexpr std::size_t kMostFaults = 100;  // Choice: more than anyone reads
+}
+
 std::string UrdfFindings::place(const XmlElement& element, const std::string& owner) const {
   const std::string line = file + ":" + std::to_string(element.line);
   return owner.empty() ? line : line + ": " + owner;
@@ -12,6 +16,11 @@ std::string UrdfFindings::place(const XmlElement& element, const std::string& ow
 void UrdfFindings::fault(const char* code, const XmlElement& element, const std::string& owner,
                          std::string message) {
   faults.push_back({code, place(element, owner), std::move(message)});
+  if (faults.size() < kMostFaults) return;
+  faults.push_back(
+      {"E_TOO_BIG", file,
+       "may have more faults; no more than " + std::to_string(kMostFaults) + " are told"});
+  throw_if_any();
 }
 
 void UrdfFindings::warn(const XmlElement& element, const std::string& owner,

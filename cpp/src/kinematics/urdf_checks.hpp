@@ -19,6 +19,7 @@ struct UrdfFindings {
 
   /// "puma560.urdf:12: joint 'joint2'"
   std::string place(const XmlElement& element, const std::string& owner) const;
+  /// Adds a fault. Throws InvalidInput with all of them once there are too many to read.
   void fault(const char* code, const XmlElement& element, const std::string& owner,
              std::string message);
   void warn(const XmlElement& element, const std::string& owner, const std::string& message);

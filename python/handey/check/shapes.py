@@ -28,7 +28,6 @@ __all__ = [
 ]
 
 logging.getLogger("trimesh").setLevel(logging.ERROR)
-MESH_KINDS = (".stl", ".obj", ".ply")
 MAX_BYTES = 64 * 2**20
 SEGMENTS = 96  # of a circle. Choice: 20 mm radius is met within 0.011 mm
 
@@ -159,8 +158,6 @@ def read_mesh(path: Path, scale: Array, pose: Array, file: str, place: str) -> S
     Raises:
         InvalidInput: if there is no such file, or no triangles in it.
     """
-    if path.suffix.lower() not in MESH_KINDS:
-        raise fault("E_PATH", file, place, f"{path} is not one of {', '.join(MESH_KINDS)}")
     if not path.is_file():
         raise fault("E_PATH", file, place, f"no file {path}")
     if path.stat().st_size > MAX_BYTES:
@@ -168,7 +165,10 @@ def read_mesh(path: Path, scale: Array, pose: Array, file: str, place: str) -> S
     import trimesh
 
     try:
-        loaded: Any = trimesh.load(path, force="mesh", process=False)
+        with path.open("rb") as opened:
+            loaded: Any = trimesh.load(
+                opened, file_type=_kind_of_mesh(path), force="mesh", process=False
+            )
         vertices = np.asarray(loaded.vertices, dtype=float) * scale
         faces = np.asarray(loaded.faces, dtype=np.int64)
     except Exception as error:  # the reader raises whatever its formats' readers raise
@@ -181,6 +181,19 @@ def read_mesh(path: Path, scale: Array, pose: Array, file: str, place: str) -> S
     if len(faces) == 0:
         raise fault("E_MESH_DEGENERATE", file, place, f"{path} has only triangles without area")
     return mesh(vertices, faces, pose)
+
+
+def _kind_of_mesh(path: Path) -> str:
+    """The kind of a mesh file as its content shows it, whatever its name ends with."""
+    with path.open("rb") as opened:
+        start = opened.read(4096)
+    text = start.lstrip()
+    if text[:4] in (b"ply\n", b"ply\r"):
+        return "ply"
+    triangles = int.from_bytes(start[80:84], "little") if len(start) >= 84 else 0
+    if path.stat().st_size == 84 + 50 * triangles or text[:5].lower() == b"solid":
+        return "stl"
+    return "obj"
 
 
 def _welded(vertices: Array, faces: np.ndarray) -> tuple[Array, np.ndarray]:
