@@ -226,6 +226,18 @@ def test_finds_an_arm_that_moves_while_the_hand_closes(cell, plan):
     assert clauses(check(cell, plan)) == {"still"}
 
 
+@pytest.mark.parametrize(("action", "row"), [("grasp", -1), ("release", 0)])
+def test_finds_fingers_that_do_not_close_or_open(cell, plan, action, row):
+    """The opening changes outside of the step that is there for it: the part is pushed or dragged."""
+    i = step_of(plan, action)
+    step = plan["steps"][i]
+    at_rest = step["opening"][row]
+    step["opening"] = [at_rest] * len(step["opening"])
+    neighbour = plan["steps"][i - 1 if action == "grasp" else i + 1]
+    neighbour["opening"][row if action == "grasp" else 0] = at_rest
+    assert "still" in clauses(check(cell, plan))
+
+
 def test_finds_a_hand_that_works_while_it_carries(cell, plan):
     plan["steps"][4]["opening"][30] -= 2e-5
     assert clauses(check(cell, plan)) == {"still"}
@@ -337,6 +349,25 @@ def test_knows_the_inside_of_an_open_tray_from_its_walls(valid, tmp_path):
         tmp_path, fixtures={"walls": {"mesh": "walls.stl", "pose": {"xyz": [0.5, -0.15, 0]}}}
     )
     assert check(cell, valid).ok
+
+
+def test_looks_at_a_robot_that_only_stands(tmp_path):
+    """One row of one step is a moment, too."""
+    plan = {
+        "handey_plan": 1, "cell": "hand_made", "joints": [f"joint{i}" for i in range(1, 7)],
+        "steps": [
+            {
+                "action": "transit", "goal": 0, "part": None, "part_in_grasp_frame": None,
+                "time": [0.0], "positions": [[0.0, 1.5708, -1.5708, 0.0, 0.0, 0.0]],
+                "opening": [0.1],
+            }
+        ],
+        "placements": {},
+    }  # fmt: skip
+    met = [{"place": "block", "at": {"xyz": [0.50, 0.15, 0.025]}}]
+    assert check(write_cell(tmp_path, task=met), plan).ok
+    beam = {"box": [0.1, 0.1, 0.1], "pose": {"xyz": [0.0, 0.0, 1.2]}}
+    assert "collision" in clauses(check(write_cell(tmp_path, task=met, fixtures={"beam": beam}), plan))
 
 
 def test_finds_an_arm_that_hits_itself(cell):

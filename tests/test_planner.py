@@ -98,6 +98,16 @@ def test_what_stands_on_a_part_is_moved_first_or_named(tmp_path: Path) -> None:
     assert result.plan.steps[0].goal == 1
 
 
+def test_goals_in_any_order_are_built_from_below(tmp_path: Path) -> None:
+    upper = {"place": "upper", "at": {"xyz": [0.5, -0.15, 0.075]}}
+    parts = {"block": block_at(0.15), "upper": block_at(0.3)}
+    path = write_cell(tmp_path, parts=parts, task=[upper, to(-0.15)], order="any")
+    result = handey.plan(path)
+    assert result.plan is not None, "\n".join(result.report.reasons)
+    assert result.plan.steps[0].goal == 1
+    assert handey.check(path, result.plan).ok, str(handey.check(path, result.plan))
+
+
 @pytest.mark.parametrize("path", IMPOSSIBLE, ids=name)
 def test_impossible_cell_gets_a_reason_and_no_plan(path: Path) -> None:
     result = handey.plan(handey.load_cell(path))

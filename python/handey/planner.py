@@ -26,7 +26,7 @@ from handey.pick_and_place import (
     carry_through,
     find_reach,
 )
-from handey.placement import stands_stably
+from handey.placement import examine_standing, stands_stably
 from handey.plan import Plan, Step
 from handey.report import Attempt, GoalReport, Report, StageClock
 from handey.task import PlaceAt
@@ -206,11 +206,10 @@ def _plan_goal(
 ) -> Carry | None:
     """Steps 1 to 6 for one goal: the first grasp that can be carried through."""
     scene = work.scene
-    carried = _carried_by(work)
-    if carried:
+    unstable = _unstable(work)
+    if unstable:
         report.funnel, report.attempts, report.status = {}, [], "failed"
-        name = scene.cell.parts[scene.part].name
-        report.reasons = [f"{', '.join(carried)} would fall: standing on {name}, which is to be moved"]
+        report.reasons = [unstable]
         return None
     with work.clock("rank grasps"):
         ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
@@ -241,6 +240,18 @@ def _plan_goal(
                 return _planned(report, name, carry)
     report.status = "failed"
     return None
+
+
+def _unstable(work: Workspace) -> str:
+    """What would fall if the part were brought to its goal now; empty if nothing."""
+    scene = work.scene
+    name = scene.cell.parts[scene.part].name
+    carried = _carried_by(work)
+    if carried:
+        return f"{', '.join(carried)} would fall: standing on {name}, which is to be moved"
+    # With `order: any` its goal may be on a part that is not there yet.
+    standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal)
+    return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
 
 
 def _carried_by(work: Workspace) -> list[str]:

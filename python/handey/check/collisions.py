@@ -106,6 +106,8 @@ class Collisions:
         opening = np.concatenate([step.opening for step in self.plan.steps])
         time = np.concatenate([step.time for step in self.plan.steps])
         row_step = np.concatenate([np.full(len(step.time), step.index) for step in self.plan.steps])
+        if len(q) == 1:  # a robot that only stands is looked at, too
+            q, opening, time, row_step = (np.repeat(a, 2, 0) for a in (q, opening, time, row_step))
         turn, slide = np.abs(np.diff(q, axis=0)), np.abs(np.diff(opening)) / 2
         bound = turn @ self._reaches() + slide
         actions = np.array([step.action for step in self.plan.steps])

@@ -147,6 +147,12 @@ def _still(step: Step, report: CheckReport) -> None:
             k, i = (int(x) for x in np.unravel_index(int(moved.argmax()), moved.shape))
             text = f"joint {i + 1} moves by {moved[k, i]:.3g} rad while the arm is to stand still"
             report.add("still", text, step.index, float(step.time[k]), step.action)
+        # Fingers that stay where they are neither take a part nor let it go.
+        wider = float(step.opening[-1] - step.opening[0])
+        if (wider if step.action == "release" else -wider) <= SAME:
+            what = "open" if step.action == "release" else "close"
+            text = f"the fingers do not {what}: the opening changes by {wider * 1e3:.3g} mm"
+            report.add("still", text, step.index, float(step.time[-1]), step.action)
     if step.action in HELD:
         moved = np.abs(step.opening - step.opening[0])
         k = int(moved.argmax())

@@ -19,7 +19,8 @@ CLAUSES: dict[str, str] = {
     "time": "time starts at 0 and never decreases",
     "joint-limits": "joints and opening stay within their limits",
     "velocity": "no joint exceeds its velocity limit",
-    "still": "the arm stands still in grasp and release, the opening while a part is held",
+    "still": "the arm stands still while the fingers close in grasp and open in release; the "
+    "opening, while a part is held",
     "start": "the plan begins at the cell's start configuration and opening",
     "finish": "the arm returns to its start configuration (finish: start)",
     "collision": "no two bodies overlap by more than 0.01 mm",
