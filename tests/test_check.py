@@ -366,8 +366,10 @@ def test_looks_at_a_robot_that_only_stands(tmp_path):
     }  # fmt: skip
     met = [{"place": "block", "at": {"xyz": [0.50, 0.15, 0.025]}}]
     assert check(write_cell(tmp_path, task=met), plan).ok
-    beam = {"box": [0.1, 0.1, 0.1], "pose": {"xyz": [0.0, 0.0, 1.2]}}
-    assert "collision" in clauses(check(write_cell(tmp_path, task=met, fixtures={"beam": beam}), plan))
+    beam = {"box": [0.6, 0.6, 0.1], "pose": {"xyz": [0.0, 0.0, 1.2]}}
+    assert "collision" in clauses(
+        check(write_cell(tmp_path, task=met, fixtures={"beam": beam}), plan)
+    )
 
 
 def test_finds_an_arm_that_hits_itself(cell):
@@ -520,7 +522,9 @@ def drawn_out(cell):
 
     # The hand comes from the side too: what stands on the block is to stay.
     start = hand_made.solve(maker.cell, moved(pick, 0.08), maker.near_start)
-    maker.move("transit", hand_made.solve(maker.cell, moved(pick, 0.08, 0.12), maker.near_start), 0.07)
+    maker.move(
+        "transit", hand_made.solve(maker.cell, moved(pick, 0.08, 0.12), maker.near_start), 0.07
+    )
     maker.move("transit", start)
     maker.slide("approach", pick)
     maker.grip("grasp", 0.04)
