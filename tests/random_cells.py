@@ -1,10 +1,13 @@
 """Random direct cells from a seed: made, planned, checked, counted.
 
-A cell has a table, one part standing upright, 0 to 6 other bodies, and a goal with the same face down anywhere that the arm
-reaches: on the bare table some grasp is legal at both ends. Whether the other bodies leave a way is not asked: such a cell counts.
+A cell has a table, one part standing upright, 0 to 6 other bodies, and a goal with the same face
+down anywhere that the arm
+reaches: on the bare table some grasp is legal at both ends. Whether the other bodies leave a way
+    is not asked: such a cell counts.
 
     python tests/random_cells.py --count 200 --seed 1
-    python tests/random_cells.py --count 40 --parts ../shared/data/parts   # with other people's parts
+    python tests/random_cells.py --count 40 --parts ../shared/data/parts   # with other people's
+    parts
 """
 
 from __future__ import annotations
@@ -39,7 +42,7 @@ BASE_RADIUS = 0.26  # of the robot's base and shoulder on the table [m]
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """A part to place: its entry in a cell file, how it is turned to stand, and its bounds when so turned."""
+    """A part to place: its entry in a cell file, its turn to stand, its bounds when so turned."""
 
     name: str
     entry: dict
@@ -80,7 +83,7 @@ def footprint(size: np.ndarray, xy: np.ndarray, yaw: float) -> np.ndarray:
 
 
 def gap_between(a: np.ndarray, b: np.ndarray) -> float:
-    """Distance of two convex polygons along the best edge normal: a lower bound, negative where they overlap."""
+    """Distance of two convex polygons along the best edge normal; negative where they overlap."""
     best = -math.inf
     for polygon in (a, b):
         edges = np.roll(polygon, -1, axis=0) - polygon
@@ -245,7 +248,7 @@ def is_same(first: handey.Plan, second: handey.Plan, folder: Path) -> bool:
 
 
 def part_groups(folder: Path | None) -> dict[str, list[Part]]:
-    """Our own parts as one group, or each watertight part of parts.json that has an antiparallel pair, standing on any of six sides."""
+    """Our own parts; or each watertight part of parts.json with a pair, on any of six sides."""
     if folder is None:
         return {"own parts": own_parts()}
     rows = json.loads((folder.parent / "parts.json").read_text())
@@ -282,7 +285,11 @@ def main() -> int:
             )
             for line in tally.failed:
                 print("  " + line)
-            tried, planned, valid = tried + tally.tried, planned + tally.planned, valid + tally.valid
+            tried, planned, valid = (
+                tried + tally.tried,
+                planned + tally.planned,
+                valid + tally.valid,
+            )
     seconds = time.perf_counter() - begin
     print(f"all: {planned} of {tried} planned, {valid} valid, {seconds:.0f} s")
     return 0 if valid == planned else 1

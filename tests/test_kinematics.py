@@ -1,4 +1,4 @@
-"""The compiled kinematics from Python: against an independent library, at its border, on the Puma model."""
+"""The compiled kinematics: against an independent library, at its border, on the Puma model."""
 
 from __future__ import annotations
 
@@ -93,7 +93,8 @@ def irb120_with_gripper(folder: Path) -> Path:
     if not source.is_file():
         pytest.skip("no ../shared/data: the IRB 120 is not here")
     finger = """
-  <link name="{side}"><collision><geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
+  <link name="{side}"><collision><geometry><box size="0.02 0.01 0.06"/></geometry></collision>
+  </link>
   <joint name="{side}_joint" type="prismatic"><origin xyz="0 0 0.05"/><parent link="tool0"/>
     <child link="{side}"/><axis xyz="0 {sign} 0"/>
     <limit lower="0" upper="0.04" velocity="0.1" effort="10"/></joint>"""

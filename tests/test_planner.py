@@ -173,7 +173,9 @@ def test_the_best_grasp_at_the_origin_alone_fails_at_the_destination_of_figure_4
     narrow = _core.rank_grasps(cell, part, goal.X_WP, origin_only).ranked[0]
     wise = _core.rank_grasps(cell, part, goal.X_WP).ranked[0]
     assert (narrow.pair.face_a, narrow.pair.face_b) != (wise.pair.face_a, wise.pair.face_b)
-    scene = _core.GraspScene(model=_core.make_collision_model(cell), cell=cell, part=part, X_WP_goal=goal.X_WP)
+    scene = _core.GraspScene(
+        model=_core.make_collision_model(cell), cell=cell, part=part, X_WP_goal=goal.X_WP
+    )
     solver = _core.SphericalWristSolver(cell.robot)
     fallen = _core.find_legal_grasps(scene, solver, narrow)
     assert not fallen.poses
@@ -192,7 +194,9 @@ def test_the_summary_is_one_json_object(tmp_path: Path) -> None:
 
 
 def test_random_direct_cells_are_planned_validly_and_repeatably(tmp_path: Path) -> None:
-    cells = random_cells.direct_cells(seed=3, count=12, parts=random_cells.own_parts(), folder=tmp_path)
+    cells = random_cells.direct_cells(
+        seed=3, count=12, parts=random_cells.own_parts(), folder=tmp_path
+    )
     tally = random_cells.run(cells)
     assert tally.tried == 12
     assert tally.valid == tally.planned == tally.repeated

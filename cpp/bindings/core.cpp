@@ -1,4 +1,5 @@
-// The compiled module handey._core. InvalidInput becomes handey.errors.InvalidInput with all its faults.
+// The compiled module handey._core. InvalidInput becomes handey.errors.InvalidInput with all its
+// faults.
 #include "bindings.hpp"
 
 namespace py = pybind11;

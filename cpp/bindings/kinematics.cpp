@@ -191,7 +191,8 @@ Args:
       .def_readonly("pad_length", &RobotDescription::pad_length, "[m]")
       .def_readonly("ignore_collisions", &RobotDescription::ignore_collisions)
       .def_readonly("packages", &RobotDescription::packages);
-  py::class_<LoadedRobot>(m, "LoadedRobot")
+  py::class_<LoadedRobot>(m, "LoadedRobot",
+                          "A robot as it was read, with what is odd about its file.")
       .def_property_readonly(
           "robot", [](const LoadedRobot& self) { return std::make_shared<Robot>(self.robot); },
           "A copy.")
@@ -215,13 +216,14 @@ void bind_inverse(py::module_& m) {
       .def_readonly("shoulder", &SingularityMargin::shoulder)
       .def_readonly("elbow", &SingularityMargin::elbow)
       .def_readonly("wrist", &SingularityMargin::wrist);
-  py::class_<InverseSolution>(m, "InverseSolution")
+  py::class_<InverseSolution>(m, "InverseSolution",
+                              "One configuration that puts the hand where it was asked to be.")
       .def_property_readonly(
           "q", [](const InverseSolution& self) { return Eigen::VectorXd(self.q); },
           "Arm joints within their limits, (6,) [rad]; a copy.")
       .def_readonly("branch", &InverseSolution::branch, "0..7: shoulder + 2 * elbow + 4 * wrist.")
       .def_readonly("margin", &InverseSolution::margin);
-  py::class_<InverseResult>(m, "InverseResult")
+  py::class_<InverseResult>(m, "InverseResult", "All solutions, or why there is none.")
       .def_readonly("status", &InverseResult::status)
       .def_readonly("solutions", &InverseResult::solutions,
                     "Ordered by branch, then wraps ascending.")
@@ -255,14 +257,15 @@ Args:
 
 void bind_path(py::module_& m) {
   const HandPathOptions defaults;
-  py::class_<HandPathOptions>(m, "HandPathOptions")
+  py::class_<HandPathOptions>(m, "HandPathOptions", "Options of follow_hand_path.")
       .def(py::init([](const py::object& largest_jump) {
              return HandPathOptions{real_number(largest_jump, "largest_jump")};
            }),
            py::kw_only(), py::arg("largest_jump") = defaults.largest_jump)
       .def_readwrite("largest_jump", &HandPathOptions::largest_jump,
                      "Most a joint may turn from one pose to the next [rad].");
-  py::class_<HandPathResult>(m, "HandPathResult")
+  py::class_<HandPathResult>(m, "HandPathResult",
+                             "Configurations along a path of hand poses, as far as they go.")
       .def_property_readonly(
           "path",
           [](const HandPathResult& self) {

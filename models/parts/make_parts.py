@@ -1,7 +1,8 @@
-"""Makes the parts of this folder (and the fixtures in ../cells/meshes) as binary STL files in millimetres.
+"""Makes the parts of this folder, and the fixtures in ../cells/meshes, as STL files in millimetres.
 
-Each solid is a set of cells of a rectilinear grid (blocks with steps, slots, windows, engravings) or the hull of a few points.
-The part's frame stands at the middle of the underside: z = 0 is the plane that the part stands on.
+Each solid is a set of cells of a rectilinear grid (blocks with steps, slots, windows, engravings)
+or the hull of a few points. The part's frame stands at the middle of the underside: z = 0 is the
+plane that the part stands on.
 Run: python make_parts.py
 """
 
@@ -60,7 +61,10 @@ def grid_solid(
                     corners.append(point)
                 if side == 0:
                     corners.reverse()
-                triangles += [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
+                triangles += [
+                    [corners[0], corners[1], corners[2]],
+                    [corners[0], corners[2], corners[3]],
+                ]
     return np.array(triangles)
 
 
@@ -133,8 +137,8 @@ def make_parts() -> dict[str, np.ndarray]:
         [-18, -17.5, 17.5, 18],
         [-30, *bars, 30],
         [0, 12, 38, 50],
-        lambda x, y, z: not (
-            abs(x) > 17.5 and 12 < z < 38 and any(a < y < a + 4 for a in bars[::2])
+        lambda x, y, z: (
+            not (abs(x) > 17.5 and 12 < z < 38 and any(a < y < a + 4 for a in bars[::2]))
         ),
     )
     parts["cross"] = grid_solid(

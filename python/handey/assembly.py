@@ -35,14 +35,15 @@ def assemble(entry: CellEntry) -> CellFile:
     robot = _robot(entry.robot, faults, warnings)
     bodies = {body.name: _body(body, faults, warnings) for body in (*entry.fixtures, *entry.parts)}
     start = None if robot is None else _start(entry.robot, robot, faults)
-    if faults:
+    if faults or robot is None or start is None:
         raise InvalidInput(faults)
+    made = {name: body for name, body in bodies.items() if body is not None}
     cell = _core.Cell(
         name=entry.name,
         robot=robot,
         X_WR=entry.robot.X_WR,
-        fixtures=[bodies[fixture.name] for fixture in entry.fixtures],
-        parts=[bodies[part.name] for part in entry.parts],
+        fixtures=[made[fixture.name] for fixture in entry.fixtures],
+        parts=[made[part.name] for part in entry.parts],
         start=start,
     )
     model = _core.make_collision_model(cell)
@@ -91,8 +92,9 @@ def _start(
 
 
 def _body(body: BodyEntry, faults: list[Fault], warnings: list[str]) -> _core.Body | None:
-    shapes = [_shape(body, shape, faults, warnings) for shape in body.shapes]
-    if any(shape is None for shape in shapes):
+    made = [_shape(body, shape, faults, warnings) for shape in body.shapes]
+    shapes = [shape for shape in made if shape is not None]
+    if len(shapes) < len(made):
         return None
     return _core.Body(
         name=body.name,

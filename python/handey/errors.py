@@ -1,7 +1,8 @@
 """What can go wrong, as exceptions with every fault named.
 
 A planner that finds no plan is not an error: it returns a result that says why. Wrong input is one:
-`InvalidInput` holds all the faults that were found, each with its kind, its place and what was expected.
+`InvalidInput` holds all the faults that were found, each with its kind, its place and what was
+expected.
 """
 
 from __future__ import annotations

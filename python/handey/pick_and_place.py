@@ -1,8 +1,9 @@
-"""One grasp carried through: approach, grasp, depart, carry, deposit, release, withdraw, and home after the last goal.
+"""One grasp carried through: approach, grasp, depart, carry, deposit, release, withdraw, home.
 
-Given a grasp pose that is legal at both ends, is there a certified motion for every step? The motions near obstacles come first
-(the article's step 4 and the put-down), the gross motions (steps 5 and 6) last, because they cost most.
-Every motion that leaves here was certified edge by edge by the core, under the contacts that the step allows.
+Given a grasp pose that is legal at both ends, is there a certified motion for every step? The
+motions near obstacles come first (the article's step 4 and the put-down), the gross motions (steps
+5 and 6) last, because they cost most. Every motion that leaves here was certified edge by edge by
+the core, under the contacts that the step allows.
 Not guaranteed: a grasp given up here may still be feasible; the reason tells where it fell.
 """
 
@@ -15,9 +16,18 @@ import numpy as np
 from handey import _core
 from handey.report import StageClock
 
-__all__ = ["Carry", "DirectOptions", "Motion", "Placing", "Workspace", "carry_through", "find_reach"]
+__all__ = [
+    "Carry",
+    "DirectOptions",
+    "Motion",
+    "Placing",
+    "Workspace",
+    "carry_through",
+    "find_reach",
+]
 
-# Choice: the pads are certified up to this far from the faces, each side; the last stretch is the contact itself [m].
+# Choice: the pads are certified up to this far from the faces, each side; the last stretch is the
+# contact itself [m].
 CLOSING_GAP = 3e-4
 # Choice: a part that touches more than what it stands on is tried in this many level directions, this far [m].
 DIRECTIONS_AWAY, STEP_AWAY = 16, 1.5e-3
@@ -122,7 +132,7 @@ def find_reach(
     q_pick: np.ndarray,
     options: DirectOptions,
 ) -> Reach | Carry:
-    """Plan all motions near obstacles for one grasp: approach, close, depart, deposit, release, withdraw.
+    """Plan the motions near obstacles for one grasp: approach to depart, deposit to withdraw.
 
     Returns:
         A `Reach`, or a `Carry` that says at which stage it fell.
@@ -175,7 +185,7 @@ def find_reach(
 
 
 def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
-    """Join a reach to where the arm is and to its destination by gross motions (steps 5 and 6), and home.
+    """Join a reach to where the arm is, to its destination and home by gross motions (steps 5, 6).
 
     Returns:
         A `Carry`, "done" or with the stage at which it fell.
@@ -242,13 +252,11 @@ def _lift(
     X_HP: np.ndarray,
     options: DirectOptions,
 ) -> _core.RetreatResult:
-    """Lift the part, held at `start`, off what it touches where it stands in `cell`; the longest of a few directions."""
+    """The longest of a few lifts of the part, held at `start`, off what it touches in `cell`."""
     scene = work.scene
     touches = _core.touching_bodies(work.model, cell, scene.part)
     held = cell.with_held(scene.part, X_HP)
-    in_contact = _core.CollisionChecker(
-        work.model, held, _core.Allowance(held_touches=touches)
-    )
+    in_contact = _core.CollisionChecker(work.model, held, _core.Allowance(held_touches=touches))
     clear = _core.CollisionChecker(work.model, held)
     back = -_core.hand_in_world(cell, start.q)[:3, 2]
     away = _away(work, cell) if len(touches) > 1 else None
@@ -298,7 +306,7 @@ def _withdraw(
     q_place: np.ndarray,
     options: DirectOptions,
 ) -> tuple[list[_core.Configuration], str]:
-    """Open the fingers over the part at its destination and draw the hand back: straight, else by the local planner."""
+    """Open the fingers at the destination and draw the hand back, straight or by a slide."""
     scene = work.scene
     with work.clock("withdraw"):
         checker = _core.CollisionChecker(work.model, goal_cell)
@@ -333,7 +341,7 @@ def _withdraw(
             model=work.model, cell=goal_cell, part=scene.part, X_WP_goal=scene.X_WP_goal
         )
         slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
-        if slide and np.array_equal(slide.path[-1].q, q_place):
+        if slide.found and np.array_equal(slide.path[-1].q, q_place):
             return list(slide.path)[::-1], ""
     return [], reason
 
@@ -351,7 +359,7 @@ def _open_and_go(
     planners: dict[str, str],
     name: str,
 ) -> tuple[list[_core.Configuration], str]:
-    """Bring the fingers to the goal's opening, before the gross motion where there is room, else after it."""
+    """A gross motion with a change of opening before it where there is room, else after it."""
     wanted = goals[0].opening
     certificate = options.approach.certificate
     opened = _at(start.q, wanted)

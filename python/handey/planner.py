@@ -1,10 +1,10 @@
 """The seven steps of the article as one loop: what to try next, and when to stop.
 
-Steps 1 to 3 rank the grasps from the part's geometry with an eye on the destination, step 4 brings the hand in, steps 5 and 6
-are the gross motions; step 7, the regrasp, is not part of this version. Python decides what to try next; the compiled core
-answers whether it is possible, and how.
-Same input, version and seed: the same plan. Not guaranteed: completeness; the report says what was covered.
-Article: "Task-level planning of pick-and-place robot motions", Handey's planning steps.
+Steps 1 to 3 rank the grasps from the part's geometry with an eye on the destination, step 4 brings
+the hand in, steps 5 and 6 are the gross motions; step 7, the regrasp, is not part of this version.
+Python decides what to try next; the compiled core answers whether it is possible, and how.
+Same input, version and seed: the same plan. Not guaranteed: completeness; the report says what was
+covered. Article: "Task-level planning of pick-and-place robot motions", Handey's planning steps.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ class PlanOptions:
 
     Attributes:
         seed: fixes every random choice.
-        deadline: seconds of wall-clock time after which planning stops between two attempts; None for no bound.
+        deadline: seconds of wall-clock time after which planning stops between two attempts; None
+            for no bound.
         ranking: options of steps 1 to 3.
         legality: options of the test of grasp poses at both ends.
         direct: options and budgets of one attempt.
@@ -71,7 +72,7 @@ class _DeadlinePassed(Exception):
 
 @dataclass
 class _Progress:
-    """The state of the world while the goals are planned one after another, and the time of the plan [s]."""
+    """The state of the world, and the clock of the plan [s], goal after goal."""
 
     cell: _core.Cell
     current: _core.Configuration
@@ -97,7 +98,9 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
     begin_wall, begin_cpu = time.perf_counter(), time.process_time()
     stop_at = None if options.deadline is None else begin_wall + options.deadline
     clock = StageClock()
-    report = Report(goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.goals)], seed=options.seed)
+    report = Report(
+        goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.goals)], seed=options.seed
+    )
     progress = _Progress(cell_file.cell, cell_file.cell.start)
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell)
@@ -117,8 +120,8 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
     report.verdict = "plan"
     result = Plan(
         cell=cell_file.name,
-        joints=[joint.name for joint in cell_file.cell.robot.joints],
-        steps=progress.steps,
+        joints=tuple(joint.name for joint in cell_file.cell.robot.joints),
+        steps=tuple(progress.steps),
         placements=_placements(progress),
     )
     report.duration_s = round(progress.clock, 6)
@@ -129,7 +132,11 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
     faults = []
     if cell_file.depth_maps:
         faults.append(
-            Fault("E_UNSUPPORTED", "depth_maps", "planning among depth maps is not offered by this version")
+            Fault(
+                "E_UNSUPPORTED",
+                "depth_maps",
+                "planning among depth maps is not offered by this version",
+            )
         )
     for index, goal in enumerate(cell_file.goals):
         if not isinstance(goal, PlaceAt):
@@ -137,7 +144,7 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
                 Fault(
                     "E_UNSUPPORTED",
                     f"task[{index}]",
-                    "goals 'on' and 'inside' are not planned by this version: give the pose with 'at'",
+                    "goals 'on' and 'inside' are not planned by this version: give a pose, 'at'",
                 )
             )
     if not _core.SphericalWristSolver.is_supported(cell_file.cell.robot):
@@ -145,7 +152,7 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
             Fault(
                 "E_KINEMATICS",
                 "robot.file",
-                "planning needs an arm of six joints with parallel second and third axes and a spherical wrist",
+                "planning needs six joints, axes 2 and 3 parallel, and a spherical wrist",
             )
         )
     if faults:
@@ -272,7 +279,7 @@ def _carried_by(work: Workspace) -> list[str]:
 def _grasps(
     work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
 ) -> Iterator[tuple[_core.RankedPair, _core.GraspPose]]:
-    """Grasp poses that are legal at both ends: a few of each face pair, best pair first, then the next few."""
+    """Grasp poses legal at both ends: a few of each face pair, best pair first, then more."""
     legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
     size, start = options.poses_per_round, 0
     while any(poses is None or start < len(poses) for poses in legal):
@@ -324,7 +331,9 @@ def _report_ranking(
     for pair in ranking.obstructed:
         name = f"faces {pair.pair.face_a}/{pair.pair.face_b}"
         blocked = 100 * (1 - pair.share)
-        report.reasons.append(f"{name}: {blocked:.0f} % obstructed by {', '.join(pair.obstructing)}")
+        report.reasons.append(
+            f"{name}: {blocked:.0f} % obstructed by {', '.join(pair.obstructing)}"
+        )
     report.exhausted = spanned == 0
 
 
@@ -358,7 +367,7 @@ def _respect(stop_at: float | None) -> None:
 def _take_over(
     progress: _Progress, goal: PlaceAt, index: int, carry: Carry, clock: StageClock
 ) -> None:
-    """Time the motions of a carry, append them as steps, and bring the world to where it then is."""
+    """Append the motions of a carry as timed steps; bring the world to where it then is."""
     with clock("timing"):
         for motion in carry.motions:
             timed = _core.time_path(progress.cell.robot, motion.path)

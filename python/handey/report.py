@@ -1,8 +1,9 @@
 """What was tried, how far it got, and how long each stage took.
 
-A planner answers with a plan or with a reason. The reason is collected here while planning: per goal the funnel of grasps
-(found, spanned by the jaws, unobstructed, legal at both ends, approached, connected) and for every attempt the stage at which it
-fell with the planner's own words, which name bodies and numbers.
+A planner answers with a plan or with a reason. The reason is collected here while planning: per
+goal the funnel of grasps (found, spanned by the jaws, unobstructed, legal at both ends,
+approached, connected) and for every attempt the stage at which it fell with the planner's own
+words, which name bodies and numbers.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ class Attempt:
 
     Attributes:
         grasp: which one: "faces 3/7, 40.0 mm, from above".
-        stage: the stage that it reached last: approach, depart, deposit, withdraw, transit, transfer, home, done.
+        stage: the stage that it reached last: approach, depart, deposit, withdraw, transit,
+            transfer, home, done.
         reason: why it went no farther; empty when done.
     """
 
@@ -82,7 +84,9 @@ class GoalReport:
         """Lines for people: the funnel, then the commonest reasons."""
         lines = [f"goal {self.goal} ({self.text}): {self.status}"]
         if self.funnel:
-            lines.append("  " + ", ".join(f"{count} {stage}" for stage, count in self.funnel.items()))
+            lines.append(
+                "  " + ", ".join(f"{count} {stage}" for stage, count in self.funnel.items())
+            )
         lines += [f"  {reason}" for reason in self.reasons[:most]]
         if self.status == "failed":
             counted = Counter((a.stage, a.reason) for a in self.attempts if a.stage != "done")
@@ -110,7 +114,8 @@ class Report:
     """How the planning of a task went.
 
     Attributes:
-        verdict: "plan"; "infeasible" where the grasps are exhausted; "unknown" where a budget ran out.
+        verdict: "plan"; "infeasible" where the grasps are exhausted; "unknown" where a budget ran
+            out.
         goals: one report per goal of the task.
         stages: CPU seconds by stage.
         cpu_s: CPU seconds of planning, without reading files and without the check.

@@ -1,5 +1,6 @@
-// A polyline of configurations made of few straight edges, each of them proved free: from each point the farthest later
-// point that a certified edge reaches (found by halving, so a farther one may be missed).
+// A polyline of configurations made of few straight edges, each of them proved free: from each
+// point the farthest later point that a certified edge reaches (found by halving, so a farther one
+// may be missed).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-// The arm behind a hand that slides in a grasp plane: which configuration takes the hand to a planar pose, near the one
-// before and in the same branch, and whether the whole robot is free there, hand open and part standing.
+// The arm behind a hand that slides in a grasp plane: which configuration takes the hand to a
+// planar pose, near the one before and in the same branch, and whether the whole robot is free
+// there, hand open and part standing.
 #pragma once
 
 #include <optional>
@@ -13,15 +14,18 @@ namespace handey {
 class HandReach {
  public:
   /// @param X_WG grasp plane in the world
-  HandReach(const GraspScene& scene, const SphericalWristSolver& solver, const Pose& X_WG, const GraspPose& aim,
-            double clearance);
+  HandReach(const GraspScene& scene, const SphericalWristSolver& solver, const Pose& X_WG,
+            const GraspPose& aim, double clearance);
 
-  /// The configuration at `pose` next to `q`, whether free or not; none if the arm cannot follow (see reason()).
+  /// The configuration at `pose` next to `q`, whether free or not; none if the arm cannot follow
+  /// (see reason()).
   std::optional<Eigen::VectorXd> follow(const PlanarPose& pose, const Eigen::VectorXd& q);
   /// The same, but none either where the robot is not free.
   std::optional<Eigen::VectorXd> follow_free(const PlanarPose& pose, const Eigen::VectorXd& q);
-  /// The configuration at `to`, the hand led there from `from` in a straight line, not asking what is in the way.
-  std::optional<Eigen::VectorXd> lead(const PlanarPose& from, const PlanarPose& to, const Eigen::VectorXd& q_from);
+  /// The configuration at `to`, the hand led there from `from` in a straight line, not asking what
+  /// is in the way.
+  std::optional<Eigen::VectorXd> lead(const PlanarPose& from, const PlanarPose& to,
+                                      const Eigen::VectorXd& q_from);
 
   Pose hand_in_robot(const PlanarPose& pose) const;
   Configuration with_opening(const Eigen::VectorXd& q) const { return {q, opening_}; }

@@ -1,6 +1,7 @@
-// One slide of hand and arm from a start to a grasp pose. The article's slide keeps the bump lines' distance from
-// everything, so it stops that far before a grasp close over a table; then the last stretch is tried straight, the exact
-// test alone deciding, and after that the slide goes on over finer grids with nearer bump lines.
+// One slide of hand and arm from a start to a grasp pose. The article's slide keeps the bump lines'
+// distance from everything, so it stops that far before a grasp close over a table; then the last
+// stretch is tried straight, the exact test alone deciding, and after that the slide goes on over
+// finer grids with nearer bump lines.
 #pragma once
 
 #include <memory>
@@ -15,16 +16,16 @@ namespace handey {
 
 /// Where hand and arm went.
 struct HandSlide {
-  SlideResult slide;                ///< the planar poses
-  std::vector<Eigen::VectorXd> q;   ///< one for each
-  bool at_aim = false;              ///< ends at the aim itself, turned as the aim is
-  std::string reason;               ///< what refused the last step, if it is not at the aim
+  SlideResult slide;               ///< the planar poses
+  std::vector<Eigen::VectorXd> q;  ///< one for each
+  bool at_aim = false;             ///< ends at the aim itself, turned as the aim is
+  std::string reason;              ///< what refused the last step, if it is not at the aim
 };
 
 class HandSlider {
  public:
-  HandSlider(const GripperOutline& outline, const ObstacleLayers& obstacles, HandReach& reach, const PlanarPose& aim,
-             const ApproachOptions& options);
+  HandSlider(const GripperOutline& outline, const ObstacleLayers& obstacles, HandReach& reach,
+             const PlanarPose& aim, const ApproachOptions& options);
 
   /// @param q_start  the arm at `start`, free
   HandSlide run(const PlanarPose& start, const Eigen::VectorXd& q_start);

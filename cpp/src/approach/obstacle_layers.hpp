@@ -1,7 +1,7 @@
-// What stands in the way of each piece of the gripper: the cell's solids cut to the piece's extent along the closing axis
-// and seen along it. Found once for a grasp; grids of any cell size are drawn from it.
-// Of meshes with many triangles, such as measured ones, only the skin is drawn: what is inside is shut in by it. Errs on
-// the full side otherwise, as the projections do.
+// What stands in the way of each piece of the gripper: the cell's solids cut to the piece's extent
+// along the closing axis and seen along it. Found once for a grasp; grids of any cell size are
+// drawn from it. Of meshes with many triangles, such as measured ones, only the skin is drawn: what
+// is inside is shut in by it. Errs on the full side otherwise, as the projections do.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,9 @@ class ObstacleLayers {
   /// @param X_WG grasp plane in the world, @param X_PG in the part
   /// @param half_size of the square about `centre` in G that matters [m]
   /// @param destination_too  obstacles at the destination, moved by T^-1, stand in the way as well
-  ObstacleLayers(const GraspScene& scene, const GripperOutline& outline, const Pose& X_WG, const Pose& X_PG,
-                 const Eigen::Vector2d& centre, double half_size, bool destination_too);
+  ObstacleLayers(const GraspScene& scene, const GripperOutline& outline, const Pose& X_WG,
+                 const Pose& X_PG, const Eigen::Vector2d& centre, double half_size,
+                 bool destination_too);
 
   MotionGrid draw(double cell) const;
 

@@ -1,4 +1,5 @@
-// How the local planners word why they stopped: lengths in millimetres, angles in degrees, the pair in the way by name.
+// How the local planners word why they stopped: lengths in millimetres, angles in degrees, the pair
+// in the way by name.
 #pragma once
 
 #include <string>

@@ -82,9 +82,10 @@ LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolve
   // Contact does not depend on the hand's half-turn.
   result.tried = result.too_little_contact = list.too_little_contact;
   for (int i = 0; i < list.too_little_contact; ++i) {
-    tally.add(grasp::Stage::Contact, "contact", "a pad has too little contact on the free faces (" +
-                             square_millimetres(demand.required) + " are needed, " +
-                             square_millimetres(demand.best) + " is the most at any target)");
+    tally.add(grasp::Stage::Contact, "contact",
+              "a pad has too little contact on the free faces (" +
+                  square_millimetres(demand.required) + " are needed, " +
+                  square_millimetres(demand.best) + " is the most at any target)");
   }
   grasp::PoseTester tester(scene, solver, options);
   std::set<std::pair<int, bool>> found;
@@ -131,9 +132,10 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
   grasp_pose.contact_area = pad_contact_area(pair.unobstructed, pose, gripper);
   if (grasp_pose.contact_area < demand.required) {
     result.too_little_contact = 1;
-    tally.add(grasp::Stage::Contact, "contact", "a pad has " + square_millimetres(grasp_pose.contact_area) +
-                             " of contact on the free faces, " +
-                             square_millimetres(demand.required) + " are needed");
+    tally.add(grasp::Stage::Contact, "contact",
+              "a pad has " + square_millimetres(grasp_pose.contact_area) +
+                  " of contact on the free faces, " + square_millimetres(demand.required) +
+                  " are needed");
   } else {
     const grasp::PoseVerdict verdict =
         grasp::PoseTester(scene, solver, options).test(pair.pair, grasp_pose, tally);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Writes the convex pieces of the Puma 560's links as OBJ files into meshes/.
 
-Every piece is a right prism that contains the real link: a polygon in two axes of the link's standard DH frame
-(Paul and Corke's signs), drawn out along the third. Pieces that are boxes stand in the URDF itself.
-The dimensions are measurements of the real arm [m]. Run it again after changing a figure; it has no
-options and needs no packages.
+Every piece is a right prism that contains the real link: a polygon in two axes of the link's
+standard DH frame (Paul and Corke's signs), drawn out along the third. Pieces that are boxes stand
+in the URDF itself. The dimensions are measurements of the real arm [m]. Run it again after
+changing a figure; it has no options and needs no packages.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ Point = tuple[float, float]
 
 
 def octagon(radius: float, corner: float, centre: Point = (0.0, 0.0)) -> list[Point]:
-    """A regular octagon with the inscribed circle `radius`, `corner` being radius * tan(22.5 deg)."""
+    """A regular octagon about the circle `radius`; `corner` is radius * tan(22.5 deg)."""
     x, y = centre
     signs = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
     points = [(sx * radius, sy * corner) for sx, sy in signs]
@@ -30,7 +30,8 @@ PRONG = [
     (-0.0446, -0.038), (-0.0446, -0.0376), (0.0446, -0.038), (0.0446, -0.0376),
 ]  # fmt: skip
 
-# name: (axis of the prism, its least and greatest coordinate, polygon in the two other axes in x, y, z order)
+# name: (axis of the prism, its least and greatest coordinate, polygon in the two other axes in x,
+#     y, z order)
 PIECES: dict[str, tuple[int, float, float, list[Point]]] = {
     "base_cable_post": (2, 0.111, 0.252, octagon(0.0515, 0.02133, (-0.173, 0.0))),
     "base_column": (2, 0.0, 0.5957, octagon(0.086, 0.03562)),
@@ -93,6 +94,7 @@ def prism(axis: int, low: float, high: float, points: list[Point]) -> str:
 
 
 def main() -> None:
+    """Write all files."""
     folder = Path(__file__).resolve().parent / "meshes"
     folder.mkdir(exist_ok=True)
     for name, piece in PIECES.items():

@@ -1,8 +1,9 @@
-// Local planning near obstacles, step 4 of the article: the hand, open, slides in the grasp plane from the border of the grid
-// to the fingertip target; the arm follows by inverse kinematics and may not collide; the grasp is where the slide ends,
-// if the fingers then overlap the faces enough and the grasp is legal at the destination too.
-// Incomplete: a slide may stall; then another start is taken. The path returned is certified edge by edge.
-// Article: "Local planning: the quasipotential method", Figures 5 and 6.
+// Local planning near obstacles, step 4 of the article: the hand, open, slides in the grasp plane
+// from the border of the grid to the fingertip target; the arm follows by inverse kinematics and
+// may not collide; the grasp is where the slide ends, if the fingers then overlap the faces enough
+// and the grasp is legal at the destination too. Incomplete: a slide may stall; then another start
+// is taken. The path returned is certified edge by edge. Article: "Local planning: the
+// quasipotential method", Figures 5 and 6.
 #pragma once
 
 #include <string>
@@ -15,33 +16,47 @@
 namespace handey {
 
 struct ApproachOptions {
-  double cell = 0.004;             ///< of the motion grid; halved up to twice where the slide stalls [m]
-  double run_in = 0.10;            ///< distance of the start from the grasp, along the approach [m]
-  double least_run_in = 0.04;      ///< shorter starts are tried down to this [m]
-  int most_slides = 8;             ///< slides from different starts; starts where the arm cannot stand do not count
+  double cell = 0.004;   ///< of the motion grid; halved up to twice where the slide stalls [m]
+  double run_in = 0.10;  ///< distance of the start from the grasp, along the approach [m]
+  double least_run_in = 0.04;  ///< shorter starts are tried down to this [m]
+  int most_slides =
+      8;  ///< slides from different starts; starts where the arm cannot stand do not count
   QuasipotentialOptions slide;
   LegalityOptions legality;
   CertificateOptions certificate;
-  double contact_share = 0.3;      ///< accepted overlap of the pad with the unobstructed faces
-  bool destination_obstacles_join = false;  ///< article: obstacles moved by T^-1 stand in the way of the approach too
+  double contact_share = 0.3;  ///< accepted overlap of the pad with the unobstructed faces
+  bool destination_obstacles_join =
+      false;  ///< article: obstacles moved by T^-1 stand in the way of the approach too
 };
 
-enum class ApproachStatus { Found, StartBlocked, Stalled, PoorOverlap, IllegalAtDestination, NotCertified };
+enum class ApproachStatus {
+  Found,
+  StartBlocked,
+  Stalled,
+  PoorOverlap,
+  IllegalAtDestination,
+  NotCertified
+};
 
 struct ApproachResult {
   ApproachStatus status = ApproachStatus::Stalled;
-  std::string reason;                  ///< for people, with names and numbers; empty if found
-  GraspPose grasp;                     ///< where the slide ended; its q_pick is the path's last configuration alone
-  std::vector<Configuration> path;     ///< certified, from the start to the grasp, hand open (opening constant)
-  SlideResult slide;                   ///< the raw slide in the grasp plane; the one that came nearest, if none arrived
+  std::string reason;  ///< for people, with names and numbers; empty if found
+  GraspPose grasp;     ///< where the slide ended; its q_pick is the path's last configuration alone
+  std::vector<Configuration>
+      path;  ///< certified, from the start to the grasp, hand open (opening constant)
+  SlideResult
+      slide;  ///< the raw slide in the grasp plane; the one that came nearest, if none arrived
   bool found() const { return status == ApproachStatus::Found; }
 };
 
-/// Slide from a start `run_in` away toward the grasp pose `aim`, with the arm in the branch of `q_pick` (one of aim.q_pick).
-/// Straight in first; then from nearer, then from starts turned about the fingertips by up to 90 degrees.
-/// @throws InvalidInput (E_RANGE, E_NUMBER, E_DOF, E_VALUE) for options out of range, a hand that is not empty, a q_pick
+/// Slide from a start `run_in` away toward the grasp pose `aim`, with the arm in the branch of
+/// `q_pick` (one of aim.q_pick). Straight in first; then from nearer, then from starts turned about
+/// the fingertips by up to 90 degrees.
+/// @throws InvalidInput (E_RANGE, E_NUMBER, E_DOF, E_VALUE) for options out of range, a hand that
+/// is not empty, a q_pick
 ///         that does not put the hand at `aim`
-ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver& solver, const RankedPair& pair,
-                             const GraspPose& aim, const Eigen::VectorXd& q_pick, const ApproachOptions& options = {});
+ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver& solver,
+                             const RankedPair& pair, const GraspPose& aim,
+                             const Eigen::VectorXd& q_pick, const ApproachOptions& options = {});
 
 }  // namespace handey

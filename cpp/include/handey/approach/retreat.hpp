@@ -1,7 +1,8 @@
-// Straight motion of the hand out of contact: lifting a part off what it stands on, drawing the open hand back from a part.
-// Reversed it is the deposit, or a straight approach. Every edge is certified; while the part has moved less than
-// `contact_travel`, the contacts it stood in are allowed, and only if the motion does not deepen them.
-// Not guaranteed: between two configurations the motion is a straight joint line, which leaves the hand's straight line a little.
+// Straight motion of the hand out of contact: lifting a part off what it stands on, drawing the
+// open hand back from a part. Reversed it is the deposit, or a straight approach. Every edge is
+// certified; while the part has moved less than `contact_travel`, the contacts it stood in are
+// allowed, and only if the motion does not deepen them. Not guaranteed: between two configurations
+// the motion is a straight joint line, which leaves the hand's straight line a little.
 #pragma once
 
 #include <string>
@@ -22,18 +23,21 @@ struct RetreatOptions {
 
 struct RetreatResult {
   bool found = false;
-  /// From the contact outwards, certified; the first edge is `contact_travel` long. As far as it went, if not found.
+  /// From the contact outwards, certified; the first edge is `contact_travel` long. As far as it
+  /// went, if not found.
   std::vector<Configuration> path;
-  double travelled = 0.0;           ///< [m]
-  std::string reason;               ///< what stopped it before `most`, with names and numbers; empty if nothing did
+  double travelled = 0.0;  ///< [m]
+  std::string
+      reason;  ///< what stopped it before `most`, with names and numbers; empty if nothing did
 };
 
-/// @param in_contact  checker with the contacts allowed (used for the first step only); may be the same as `clear`
+/// @param in_contact  checker with the contacts allowed (used for the first step only); may be the
+/// same as `clear`
 /// @param clear       checker without them
 /// @param direction   of the hand's motion, world [unit vector]
 /// @throws InvalidInput (E_DOF, E_NUMBER, E_RANGE)
-RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear, const SphericalWristSolver& solver,
-                           const Configuration& start, const Eigen::Vector3d& direction,
-                           const RetreatOptions& options = {});
+RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear,
+                           const SphericalWristSolver& solver, const Configuration& start,
+                           const Eigen::Vector3d& direction, const RetreatOptions& options = {});
 
 }  // namespace handey

@@ -1,4 +1,5 @@
-// The cell: robot, fixtures, parts, and which part is in the hand. A value: an edit returns a new cell.
+// The cell: robot, fixtures, parts, and which part is in the hand. A value: an edit returns a new
+// cell.
 #pragma once
 
 #include <memory>
@@ -27,9 +28,9 @@ struct HeldPart {
 struct Cell {
   std::string name;
   std::shared_ptr<const Robot> robot;
-  Pose X_WR = Pose::Identity();   ///< the URDF's root link in the world
-  std::vector<Body> fixtures;     ///< never move
-  std::vector<Body> parts;        ///< can be picked up; a held part's X_WB is not used
+  Pose X_WR = Pose::Identity();  ///< the URDF's root link in the world
+  std::vector<Body> fixtures;    ///< never move
+  std::vector<Body> parts;       ///< can be picked up; a held part's X_WB is not used
   std::optional<HeldPart> held;
   Configuration start;
 
