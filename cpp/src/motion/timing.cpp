@@ -1,8 +1,8 @@
 // The path parameter s is the travel time at the velocity limits: along an edge it grows by
 // max_j |dq_j| / v_j. Then ds/dt <= speed_scale is the velocity limit of all joints at once, each
 // edge has one constant limit of its acceleration, and the fastest profile is exact and in closed
-// form: corner speeds by one pass forward and one backward (Bobrow, Dubowsky, Gibson 1985, for
-// straight edges), and a trapezoid between each two.
+// form: a stop at every corner, speeds where edges in line meet by one pass forward and one
+// backward (Bobrow, Dubowsky, Gibson 1985, for straight edges), and a trapezoid between each two.
 #include "handey/motion/timing.hpp"
 
 #include <algorithm>
@@ -20,6 +20,8 @@ using Eigen::VectorXd;
 
 // Two waypoints nearer than this in every coordinate are one [rad, m].
 constexpr double kSamePlace = 1e-10;
+// Edges in line but for rounding: a jump of velocity that takes this share of an interval.
+constexpr double kInLine = 1e-6;
 // A phase shorter than this gets no row of its own [s]: the speed changes by nothing meanwhile.
 constexpr double kShortestPhase = 1e-6;
 // More rows than this for one edge are a wrong limit or interval, not a motion.
@@ -113,14 +115,12 @@ std::vector<Edge> edges_of(const std::vector<Configuration>& path, const Limits&
   return edges;
 }
 
-// The greatest speed ds/dt at which the corner between two edges may be driven through.
-double corner_speed(const Edge& before, const Edge& after, const Limits& limits, double interval) {
+// May the path go on from one edge to the next without a stop? Only where they lie in line: a
+// corner driven through at any speed is a jump of velocity, on top of the acceleration along the
+// edges.
+bool is_in_line(const Edge& before, const Edge& after, const Limits& limits, double interval) {
   const VectorXd jump = after.tangent - before.tangent;
-  const double per_speed = jump.cwiseAbs().cwiseQuotient(limits.acceleration).maxCoeff();
-  // At speed v the jump would take per_speed * v at the acceleration limit. Edges in line: 1 / 0,
-  // no limit.
-  const double between_corners = 0.5 * (before.length + after.length);
-  return std::min(interval / per_speed, std::sqrt(between_corners / per_speed));
+  return jump.cwiseAbs().cwiseQuotient(limits.acceleration).maxCoeff() <= kInLine * interval;
 }
 
 std::vector<double> waypoint_speeds(const std::vector<Edge>& edges, const Limits& limits,
@@ -128,7 +128,7 @@ std::vector<double> waypoint_speeds(const std::vector<Edge>& edges, const Limits
   std::vector<double> speed(edges.size() + 1, options.speed_scale);
   speed.front() = speed.back() = 0.0;
   for (std::size_t k = 1; k < edges.size(); ++k) {
-    speed[k] = std::min(speed[k], corner_speed(edges[k - 1], edges[k], limits, options.interval));
+    if (!is_in_line(edges[k - 1], edges[k], limits, options.interval)) speed[k] = 0.0;
   }
   const auto reached = [](double from, const Edge& edge) {
     return std::sqrt(from * from + 2.0 * edge.acceleration * edge.length);

@@ -1,10 +1,8 @@
 // When to be where: the shortest time along a polyline in joint space (and in the opening) within
 // the velocity and acceleration limits. The rows lie exactly on the polyline, every corner is a
-// row, so what was certified is what is driven. At a corner the speed is such that no joint's
-// velocity jumps by more than its acceleration limit allows in one row interval, or, where corners
-// follow each other faster, in the time between them; the motion starts and ends at rest. Not
-// guaranteed: the sum of a corner's jump and of the acceleration along its edges keeps to the
-// limit; each alone does.
+// row, so what was certified is what is driven. The motion starts and ends at rest and stops at
+// every corner, because no finite acceleration takes a straight edge round one; edges in line are
+// driven through.
 #pragma once
 
 #include <vector>
