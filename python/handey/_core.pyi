@@ -1,13 +1,141 @@
 """
 The compiled core of handey. Metres, radians, seconds. Poses are 4 x 4 arrays.
 """
+
 from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Allowance', 'ApproachOptions', 'ApproachResult', 'ApproachStatus', 'ArmJoint', 'Body', 'BodyRef', 'Box', 'BumpLine', 'Cell', 'CertificateOptions', 'CollisionChecker', 'CollisionModel', 'Configuration', 'Cylinder', 'EdgeResult', 'EdgeStatus', 'FacePair', 'FeatureOptions', 'FeaturePairs', 'FingerJoint', 'GraspPose', 'GraspScene', 'Gripper', 'GripperOutline', 'GrossOptions', 'HandPathOptions', 'HandPathResult', 'HeldPart', 'Hit', 'InscribedCircle', 'InverseResult', 'InverseSolution', 'InverseStatus', 'JointLimit', 'LegalGrasps', 'LegalityOptions', 'LoadedMesh', 'LoadedRobot', 'MeshShape', 'MotionGrid', 'MotionResult', 'MotionStatus', 'NearbyBody', 'OutlinePiece', 'Overlap', 'PlanarFace', 'PlanarPose', 'QuasipotentialOptions', 'RankedPair', 'Ranking', 'RankingOptions', 'Region', 'RejectedPair', 'Rejection', 'RetreatOptions', 'RetreatResult', 'Robot', 'RobotBody', 'RobotDescription', 'SamplingOptions', 'Shape', 'ShortcutOptions', 'SingularityMargin', 'SlideResult', 'SlideStatus', 'Sphere', 'SphericalWristSolver', 'SurfaceReport', 'TimedPath', 'TimingOptions', 'TriangleMesh', 'body_poses', 'boundary_distance', 'bump_lines', 'centre_of_mass', 'certify_edge', 'certify_path', 'connected_components', 'connected_parts', 'contains_point', 'convex_hull', 'find_feature_pairs', 'find_legal_grasps', 'find_overlaps', 'fingertip_targets', 'follow_hand_path', 'gripper_outline', 'hand_in_plane', 'hand_in_world', 'hand_pose', 'hull_points', 'inspect_surface', 'intersect', 'is_convex', 'largest_inscribed_circle', 'limit_violation', 'load_mesh', 'load_robot', 'make_collision_model', 'motion_bound', 'nearby_bodies', 'offset', 'pad_contact_area', 'plan_approach', 'plan_by_sampling', 'plan_gross_motion', 'plan_retreat', 'planar_faces', 'pose_from_xyz_quat', 'pose_from_xyz_rpy', 'quaternion_xyzw', 'rank_grasps', 'robot_overlaps', 'shorten_path', 'slab_projection', 'slide_to_target', 'subtract', 'tessellate', 'test_grasp_pose', 'time_path', 'touching_bodies', 'travel_time', 'unite']
+
+__all__: list[str] = [
+    "Allowance",
+    "ApproachOptions",
+    "ApproachResult",
+    "ApproachStatus",
+    "ArmJoint",
+    "Body",
+    "BodyRef",
+    "Box",
+    "BumpLine",
+    "Cell",
+    "CertificateOptions",
+    "CollisionChecker",
+    "CollisionModel",
+    "Configuration",
+    "Cylinder",
+    "EdgeResult",
+    "EdgeStatus",
+    "FacePair",
+    "FeatureOptions",
+    "FeaturePairs",
+    "FingerJoint",
+    "GraspPose",
+    "GraspScene",
+    "Gripper",
+    "GripperOutline",
+    "GrossOptions",
+    "HandPathOptions",
+    "HandPathResult",
+    "HeldPart",
+    "Hit",
+    "InscribedCircle",
+    "InverseResult",
+    "InverseSolution",
+    "InverseStatus",
+    "JointLimit",
+    "LegalGrasps",
+    "LegalityOptions",
+    "LoadedMesh",
+    "LoadedRobot",
+    "MeshShape",
+    "MotionGrid",
+    "MotionResult",
+    "MotionStatus",
+    "NearbyBody",
+    "OutlinePiece",
+    "Overlap",
+    "PlanarFace",
+    "PlanarPose",
+    "QuasipotentialOptions",
+    "RankedPair",
+    "Ranking",
+    "RankingOptions",
+    "Region",
+    "RejectedPair",
+    "Rejection",
+    "RetreatOptions",
+    "RetreatResult",
+    "Robot",
+    "RobotBody",
+    "RobotDescription",
+    "SamplingOptions",
+    "Shape",
+    "ShortcutOptions",
+    "SingularityMargin",
+    "SlideResult",
+    "SlideStatus",
+    "Sphere",
+    "SphericalWristSolver",
+    "SurfaceReport",
+    "TimedPath",
+    "TimingOptions",
+    "TriangleMesh",
+    "body_poses",
+    "boundary_distance",
+    "bump_lines",
+    "centre_of_mass",
+    "certify_edge",
+    "certify_path",
+    "connected_components",
+    "connected_parts",
+    "contains_point",
+    "convex_hull",
+    "find_feature_pairs",
+    "find_legal_grasps",
+    "find_overlaps",
+    "fingertip_targets",
+    "follow_hand_path",
+    "gripper_outline",
+    "hand_in_plane",
+    "hand_in_world",
+    "hand_pose",
+    "hull_points",
+    "inspect_surface",
+    "intersect",
+    "is_convex",
+    "largest_inscribed_circle",
+    "limit_violation",
+    "load_mesh",
+    "load_robot",
+    "make_collision_model",
+    "motion_bound",
+    "nearby_bodies",
+    "offset",
+    "pad_contact_area",
+    "plan_approach",
+    "plan_by_sampling",
+    "plan_gross_motion",
+    "plan_retreat",
+    "planar_faces",
+    "pose_from_xyz_quat",
+    "pose_from_xyz_rpy",
+    "quaternion_xyzw",
+    "rank_grasps",
+    "robot_overlaps",
+    "shorten_path",
+    "slab_projection",
+    "slide_to_target",
+    "subtract",
+    "tessellate",
+    "test_grasp_pose",
+    "time_path",
+    "touching_bodies",
+    "travel_time",
+    "unite",
+]
+
 class Region:
     """
     A plane region: outer loops counter-clockwise, holes clockwise [m].
@@ -17,8 +145,7 @@ class Region:
         Args:
             loops: closed polygons, each (n, 2) [m]; counter-clockwise outside, clockwise holes.
         """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     def contains(self, point: typing.Any) -> bool:
         """
         True if the point (2,) lies inside.
@@ -33,10 +160,11 @@ class Region:
         Holes taken off [m2].
         """
     @property
-    def loops(self) -> list:
+    def loops(self) -> list[numpy.ndarray]:
         """
         The loops, each (n, 2) [m].
         """
+
 class InscribedCircle:
     """
     A circle inside a region.
@@ -51,6 +179,7 @@ class InscribedCircle:
         """
         [m]; 0 for an empty region
         """
+
 class TriangleMesh:
     """
     Triangles counter-clockwise seen from outside.
@@ -67,8 +196,7 @@ class TriangleMesh:
             InvalidInput: E_NUMBER, E_SHAPE, E_INDEX.
             TypeError: for strings, booleans, complex numbers.
         """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
     def triangles(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 3]"]:
         """
@@ -79,6 +207,7 @@ class TriangleMesh:
         """
         (n, 3) [m], a copy.
         """
+
 class SurfaceReport:
     """
     What a surface is.
@@ -114,11 +243,9 @@ class SurfaceReport:
         No edge is shared by more than two triangles.
         """
     @property
-    def open_edges(self) -> int:
-        ...
+    def open_edges(self) -> int: ...
     @property
-    def overfull_edges(self) -> int:
-        ...
+    def overfull_edges(self) -> int: ...
     @property
     def upper(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -129,12 +256,12 @@ class SurfaceReport:
         """
         Signed [m3]; negative: inside out.
         """
+
 class PlanarFace:
     """
     A planar face of a solid with its own plane coordinates.
     """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
     def area(self) -> float:
         """
@@ -170,6 +297,7 @@ class PlanarFace:
         """
         In-plane axis (3,).
         """
+
 class Box:
     """
     A box about the origin.
@@ -184,11 +312,16 @@ class Box:
         """
         Full edge lengths (3,) [m].
         """
+
 class Cylinder:
     """
     A cylinder along z about the origin.
     """
-    def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    def __init__(
+        self,
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+        length: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None:
         """
         Args:
             radius: [m].
@@ -204,6 +337,7 @@ class Cylinder:
         """
         [m]
         """
+
 class Sphere:
     """
     A sphere about the origin.
@@ -218,6 +352,7 @@ class Sphere:
         """
         [m]
         """
+
 class MeshShape:
     """
     A mesh as a solid or, for fixtures, an open skin.
@@ -229,16 +364,17 @@ class MeshShape:
             solid: closed, what is inside collides; False: an open skin.
         """
     @property
-    def mesh(self) -> TriangleMesh:
-        ...
+    def mesh(self) -> TriangleMesh: ...
     @property
-    def solid(self) -> bool:
-        ...
+    def solid(self) -> bool: ...
+
 class Shape:
     """
     A geometry at its pose in the body that has it.
     """
-    def __init__(self, geometry: Box | Cylinder | Sphere | MeshShape, X_BS: typing.Any = None) -> None:
+    def __init__(
+        self, geometry: Box | Cylinder | Sphere | MeshShape, X_BS: typing.Any = None
+    ) -> None:
         """
         A shape.
 
@@ -255,23 +391,22 @@ class Shape:
         4 x 4
         """
     @property
-    def geometry(self) -> Box | Cylinder | Sphere | MeshShape:
-        ...
+    def geometry(self) -> Box | Cylinder | Sphere | MeshShape: ...
+
 class LoadedMesh:
     """
     A mesh from a file and what was found out about it.
     """
     @property
-    def mesh(self) -> TriangleMesh:
-        ...
+    def mesh(self) -> TriangleMesh: ...
     @property
-    def surface(self) -> SurfaceReport:
-        ...
+    def surface(self) -> SurfaceReport: ...
     @property
     def warnings(self) -> list[str]:
         """
         What was mended or looks wrong.
         """
+
 class Configuration:
     """
     What is to be driven.
@@ -280,26 +415,23 @@ class Configuration:
         q: arm joints, shape (n,) [rad].
         opening: distance between the pads [m].
     """
-    def __init__(self, q: typing.Any, opening: typing.Any = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(self, q: typing.Any, opening: typing.Any = 0.0) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def opening(self) -> float:
         """
         Distance between the pads [m].
         """
     @opening.setter
-    def opening(self, arg1: typing.Any) -> None:
-        ...
+    def opening(self, arg1: typing.Any) -> None: ...
     @property
     def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         Arm joints, shape (n,) [rad]; a copy.
         """
     @q.setter
-    def q(self, arg1: typing.Any) -> None:
-        ...
+    def q(self, arg1: typing.Any) -> None: ...
+
 class JointLimit:
     """
     Limits of an arm joint; infinite for a continuous one.
@@ -324,6 +456,7 @@ class JointLimit:
         """
         [rad/s]
         """
+
 class ArmJoint:
     """
     A revolute joint: child = parent * X_PJ * Rot(axis, q).
@@ -344,23 +477,21 @@ class ArmJoint:
         Index of the body that it moves.
         """
     @property
-    def limit(self) -> JointLimit:
-        ...
+    def limit(self) -> JointLimit: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
     def parent(self) -> int:
         """
         Index of the body that carries it.
         """
+
 class RobotBody:
     """
     Links joined by fixed joints: one rigid body.
     """
     @property
-    def links(self) -> list[str]:
-        ...
+    def links(self) -> list[str]: ...
     @property
     def name(self) -> str:
         """
@@ -371,30 +502,27 @@ class RobotBody:
         """
         Collision geometry in the body's frame.
         """
+
 class FingerJoint:
     """
     child = parent * X_PJ * Translate(axis * opening / 2).
     """
     @property
-    def X_PJ(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
-        ...
+    def X_PJ(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]: ...
     @property
-    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def child(self) -> int:
-        ...
+    def child(self) -> int: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def parent(self) -> int:
-        ...
+    def parent(self) -> int: ...
     @property
     def velocity(self) -> float:
         """
         Limit of one finger [m/s].
         """
+
 class Gripper:
     """
     A parallel jaw. Grasp frame H: origin midway between the pads,
@@ -416,8 +544,7 @@ class Gripper:
         Index of the body that carries H.
         """
     @property
-    def fingers(self) -> tuple[FingerJoint, FingerJoint]:
-        ...
+    def fingers(self) -> tuple[FingerJoint, FingerJoint]: ...
     @property
     def max_opening(self) -> float:
         """
@@ -438,23 +565,21 @@ class Gripper:
         """
         Along x of H [m].
         """
+
 class Robot:
     """
     A robot as URDF and robot file describe it.
     """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
     def bodies(self) -> list[RobotBody]:
         """
         Body 0 is the base; parents come before children.
         """
     @property
-    def dof(self) -> int:
-        ...
+    def dof(self) -> int: ...
     @property
-    def gripper(self) -> Gripper:
-        ...
+    def gripper(self) -> Gripper: ...
     @property
     def home(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
@@ -466,16 +591,15 @@ class Robot:
         Body indices never checked against each other, from the robot file.
         """
     @property
-    def joint_names(self) -> list[str]:
-        ...
+    def joint_names(self) -> list[str]: ...
     @property
     def joints(self) -> list[ArmJoint]:
         """
         Arm joints, base to flange.
         """
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
+
 class RobotDescription:
     """
     What a URDF does not say: the robot file.
@@ -493,33 +617,43 @@ class RobotDescription:
         ignore_collisions: pairs of link names.
         packages: folders by package name, for package:// paths.
     """
-    def __init__(self, *, name: str = '', arm: collections.abc.Sequence[str], home: typing.Any, acceleration: typing.Any = [], gripper_link: str, X_LH: typing.Any = None, fingers: typing.Annotated[collections.abc.Sequence[str], "FixedSize(2)"], min_opening: typing.Any = 0.0, max_opening: typing.Any = 0.1, pad_width: typing.Any = 0.02, pad_length: typing.Any = 0.03, ignore_collisions: collections.abc.Sequence[tuple[str, str]] = [], packages: collections.abc.Mapping[str, str] = {}) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        arm: collections.abc.Sequence[str],
+        home: typing.Any,
+        acceleration: typing.Any = [],
+        gripper_link: str,
+        X_LH: typing.Any = None,
+        fingers: typing.Annotated[collections.abc.Sequence[str], "FixedSize(2)"],
+        min_opening: typing.Any = 0.0,
+        max_opening: typing.Any = 0.1,
+        pad_width: typing.Any = 0.02,
+        pad_length: typing.Any = 0.03,
+        ignore_collisions: collections.abc.Sequence[tuple[str, str]] = [],
+        packages: collections.abc.Mapping[str, str] = {},
+    ) -> None: ...
     @property
-    def X_LH(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
-        ...
+    def X_LH(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]: ...
     @property
     def acceleration(self) -> list[float]:
         """
         [rad/s2]
         """
     @property
-    def arm(self) -> list[str]:
-        ...
+    def arm(self) -> list[str]: ...
     @property
-    def fingers(self) -> typing.Annotated[list[str], "FixedSize(2)"]:
-        ...
+    def fingers(self) -> typing.Annotated[list[str], "FixedSize(2)"]: ...
     @property
-    def gripper_link(self) -> str:
-        ...
+    def gripper_link(self) -> str: ...
     @property
     def home(self) -> list[float]:
         """
         [rad]
         """
     @property
-    def ignore_collisions(self) -> list[tuple[str, str]]:
-        ...
+    def ignore_collisions(self) -> list[tuple[str, str]]: ...
     @property
     def max_opening(self) -> float:
         """
@@ -531,11 +665,9 @@ class RobotDescription:
         [m]
         """
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def packages(self) -> dict[str, str]:
-        ...
+    def packages(self) -> dict[str, str]: ...
     @property
     def pad_length(self) -> float:
         """
@@ -546,6 +678,7 @@ class RobotDescription:
         """
         [m]
         """
+
 class LoadedRobot:
     """
     A robot as it was read, with what is odd about its file.
@@ -560,6 +693,7 @@ class LoadedRobot:
         """
         What was taken otherwise than written.
         """
+
 class InverseStatus:
     """
     Members:
@@ -574,6 +708,7 @@ class InverseStatus:
 
       OutsideLimits
     """
+
     InsideShoulderCylinder: typing.ClassVar[InverseStatus]
     OutsideLimits: typing.ClassVar[InverseStatus]
     Solved: typing.ClassVar[InverseStatus]
@@ -581,52 +716,37 @@ class InverseStatus:
     TooFar: typing.ClassVar[InverseStatus]
     __members__: typing.ClassVar[dict[str, InverseStatus]]
     @typing.overload
-    def __eq__(self, other: InverseStatus) -> bool:
-        ...
+    def __eq__(self, other: InverseStatus) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: InverseStatus) -> bool:
-        ...
+    def __ne__(self, other: InverseStatus) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class SingularityMargin:
     """
     How far from a singularity: 0 at it, at most 1.
     """
     @property
-    def elbow(self) -> float:
-        ...
+    def elbow(self) -> float: ...
     @property
-    def shoulder(self) -> float:
-        ...
+    def shoulder(self) -> float: ...
     @property
-    def wrist(self) -> float:
-        ...
+    def wrist(self) -> float: ...
+
 class InverseSolution:
     """
     One configuration that puts the hand where it was asked to be.
@@ -637,13 +757,13 @@ class InverseSolution:
         0..7: shoulder + 2 * elbow + 4 * wrist.
         """
     @property
-    def margin(self) -> SingularityMargin:
-        ...
+    def margin(self) -> SingularityMargin: ...
     @property
     def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         Arm joints within their limits, (6,) [rad]; a copy.
         """
+
 class InverseResult:
     """
     All solutions, or why there is none.
@@ -669,8 +789,8 @@ class InverseResult:
         Ordered by branch, then wraps ascending.
         """
     @property
-    def status(self) -> InverseStatus:
-        ...
+    def status(self) -> InverseStatus: ...
+
 class SphericalWristSolver:
     """
     Closed-form inverse kinematics of six-joint arms with parallel
@@ -680,10 +800,8 @@ class SphericalWristSolver:
         InvalidInput: E_KINEMATICS if the arm is of another kind.
     """
     @staticmethod
-    def is_supported(robot: Robot) -> bool:
-        ...
-    def __init__(self, robot: Robot) -> None:
-        ...
+    def is_supported(robot: Robot) -> bool: ...
+    def __init__(self, robot: Robot) -> None: ...
     def solve(self, X_RH: typing.Any, reference: typing.Any = None) -> InverseResult:
         """
         All configurations that put the grasp frame at X_RH.
@@ -692,27 +810,26 @@ class SphericalWristSolver:
             X_RH: hand pose in the robot frame, (4, 4).
             reference: (6,) [rad]; gives joint 4 at a wrist singularity and the turn of continuous joints.
         """
+
 class HandPathOptions:
     """
     Options of follow_hand_path.
     """
-    def __init__(self, *, largest_jump: typing.Any = 0.15) -> None:
-        ...
+    def __init__(self, *, largest_jump: typing.Any = 0.15) -> None: ...
     @property
     def largest_jump(self) -> float:
         """
         Most a joint may turn from one pose to the next [rad].
         """
     @largest_jump.setter
-    def largest_jump(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def largest_jump(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class HandPathResult:
     """
     Configurations along a path of hand poses, as far as they go.
     """
     @property
-    def complete(self) -> bool:
-        ...
+    def complete(self) -> bool: ...
     @property
     def path(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
@@ -723,6 +840,7 @@ class HandPathResult:
         """
         Why it stopped.
         """
+
 class BodyRef:
     """
     A fixture or a part of a cell, by kind and index.
@@ -735,57 +853,42 @@ class BodyRef:
 
           Part
         """
+
         Fixture: typing.ClassVar[BodyRef.Kind]
         Part: typing.ClassVar[BodyRef.Kind]
         __members__: typing.ClassVar[dict[str, BodyRef.Kind]]
         @typing.overload
-        def __eq__(self, other: BodyRef.Kind) -> bool:
-            ...
+        def __eq__(self, other: BodyRef.Kind) -> bool: ...
         @typing.overload
-        def __eq__(self, other: typing.Any) -> bool:
-            ...
-        def __getstate__(self) -> int:
-            ...
-        def __hash__(self) -> int:
-            ...
-        def __index__(self) -> int:
-            ...
-        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-            ...
-        def __int__(self) -> int:
-            ...
+        def __eq__(self, other: typing.Any) -> bool: ...
+        def __getstate__(self) -> int: ...
+        def __hash__(self) -> int: ...
+        def __index__(self) -> int: ...
+        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __int__(self) -> int: ...
         @typing.overload
-        def __ne__(self, other: BodyRef.Kind) -> bool:
-            ...
+        def __ne__(self, other: BodyRef.Kind) -> bool: ...
         @typing.overload
-        def __ne__(self, other: typing.Any) -> bool:
-            ...
-        def __repr__(self) -> str:
-            ...
-        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-            ...
-        def __str__(self) -> str:
-            ...
+        def __ne__(self, other: typing.Any) -> bool: ...
+        def __repr__(self) -> str: ...
+        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __str__(self) -> str: ...
         @property
-        def name(self) -> str:
-            ...
+        def name(self) -> str: ...
         @property
-        def value(self) -> int:
-            ...
-    def __eq__(self, arg0: typing.Any) -> bool:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, kind: BodyRef.Kind, index: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+        def value(self) -> int: ...
+
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, kind: BodyRef.Kind, index: typing.SupportsInt | typing.SupportsIndex
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def index(self) -> int:
-        ...
+    def index(self) -> int: ...
     @property
-    def kind(self) -> BodyRef.Kind:
-        ...
+    def kind(self) -> BodyRef.Kind: ...
+
 class HeldPart:
     """
     What is in the hand.
@@ -794,16 +897,17 @@ class HeldPart:
         part: index in Cell.parts.
         X_HP: the part in the grasp frame, (4, 4).
     """
-    def __init__(self, *, part: typing.SupportsInt | typing.SupportsIndex, X_HP: typing.Any = None) -> None:
-        ...
+    def __init__(
+        self, *, part: typing.SupportsInt | typing.SupportsIndex, X_HP: typing.Any = None
+    ) -> None: ...
     @property
     def X_HP(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
         """
         (4, 4)
         """
     @property
-    def part(self) -> int:
-        ...
+    def part(self) -> int: ...
+
 class Body:
     """
     A fixture or a part: shapes in one rigid body.
@@ -818,10 +922,19 @@ class Body:
         density: [kg/m3], or None.
         may_move: may be moved although no goal names it (parts).
     """
-    def __init__(self, *, name: str, shapes: collections.abc.Sequence[Shape], X_WB: typing.Any = None, support: bool = False, friction: typing.Any = 0.4, mass: typing.Any = None, density: typing.Any = None, may_move: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        *,
+        name: str,
+        shapes: collections.abc.Sequence[Shape],
+        X_WB: typing.Any = None,
+        support: bool = False,
+        friction: typing.Any = 0.4,
+        mass: typing.Any = None,
+        density: typing.Any = None,
+        may_move: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def X_WB(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
         """
@@ -833,25 +946,21 @@ class Body:
         [kg/m3] or None.
         """
     @property
-    def friction(self) -> float:
-        ...
+    def friction(self) -> float: ...
     @property
     def mass(self) -> float | None:
         """
         [kg] or None.
         """
     @property
-    def may_move(self) -> bool:
-        ...
+    def may_move(self) -> bool: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def shapes(self) -> list[Shape]:
-        ...
+    def shapes(self) -> list[Shape]: ...
     @property
-    def support(self) -> bool:
-        ...
+    def support(self) -> bool: ...
+
 class Cell:
     """
     Robot, fixtures, parts, and which part is in the hand. A value: an edit returns a new cell.
@@ -868,12 +977,19 @@ class Cell:
     Raises:
         InvalidInput: with every body, pose or number that is wrong.
     """
-    def __init__(self, *, name: str = 'cell', robot: Robot, start: Configuration, fixtures: collections.abc.Sequence[Body] = [], parts: collections.abc.Sequence[Body] = [], X_WR: typing.Any = None, held: HeldPart | None = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def body(self, ref: BodyRef) -> Body:
-        ...
+    def __init__(
+        self,
+        *,
+        name: str = "cell",
+        robot: Robot,
+        start: Configuration,
+        fixtures: collections.abc.Sequence[Body] = [],
+        parts: collections.abc.Sequence[Body] = [],
+        X_WR: typing.Any = None,
+        held: HeldPart | None = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def body(self, ref: BodyRef) -> Body: ...
     def part_index(self, name: str) -> int:
         """
         Index of the part of this name. Raises InvalidInput with the legal names.
@@ -882,7 +998,9 @@ class Cell:
         """
         The same cell with the part in the hand.
         """
-    def with_part_at(self, part: typing.SupportsInt | typing.SupportsIndex, X_WP: typing.Any) -> Cell:
+    def with_part_at(
+        self, part: typing.SupportsInt | typing.SupportsIndex, X_WP: typing.Any
+    ) -> Cell:
         """
         The same cell with a part at another pose.
         """
@@ -906,23 +1024,22 @@ class Cell:
         HeldPart or None.
         """
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
     def parts(self) -> list[Body]:
         """
         List of Body; a held part's X_WB is not used. A copy.
         """
     @property
-    def robot(self) -> Robot:
-        ...
+    def robot(self) -> Robot: ...
     @property
-    def start(self) -> Configuration:
-        ...
+    def start(self) -> Configuration: ...
+
 class CollisionModel:
     """
     Collision geometry of a cell's robot, fixtures and parts. Immutable; shared by checkers.
     """
+
 class Allowance:
     """
     Contacts that are part of the work.
@@ -931,35 +1048,33 @@ class Allowance:
         closed_on: index of the part that the fingers close on without it being held yet, or None.
         held_touches: list of BodyRef that the held part may touch where it stands.
     """
-    def __init__(self, *, closed_on: typing.SupportsInt | typing.SupportsIndex | None = None, held_touches: collections.abc.Sequence[BodyRef] = []) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        closed_on: typing.SupportsInt | typing.SupportsIndex | None = None,
+        held_touches: collections.abc.Sequence[BodyRef] = [],
+    ) -> None: ...
     @property
-    def closed_on(self) -> int | None:
-        ...
+    def closed_on(self) -> int | None: ...
     @closed_on.setter
-    def closed_on(self, arg0: typing.SupportsInt | typing.SupportsIndex | None) -> None:
-        ...
+    def closed_on(self, arg0: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
     @property
-    def held_touches(self) -> list[BodyRef]:
-        ...
+    def held_touches(self) -> list[BodyRef]: ...
     @held_touches.setter
-    def held_touches(self, arg0: collections.abc.Sequence[BodyRef]) -> None:
-        ...
+    def held_touches(self, arg0: collections.abc.Sequence[BodyRef]) -> None: ...
+
 class Hit:
     """
     The pair that is in the way; distance [m] is 0 or less where they overlap.
     """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
-    def a(self) -> str:
-        ...
+    def a(self) -> str: ...
     @property
-    def b(self) -> str:
-        ...
+    def b(self) -> str: ...
     @property
-    def distance(self) -> float:
-        ...
+    def distance(self) -> float: ...
+
 class CollisionChecker:
     """
     Is the robot free of the cell and of itself?
@@ -971,43 +1086,56 @@ class CollisionChecker:
         cell: where the parts are and what is held now.
         allowance: contacts that are part of the work.
     """
-    def __init__(self, model: CollisionModel, cell: Cell, allowance: Allowance = ...) -> None:
-        ...
-    def closest(self, configuration: Configuration, horizon: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Hit:
+    def __init__(self, model: CollisionModel, cell: Cell, allowance: Allowance = ...) -> None: ...
+    def closest(
+        self,
+        configuration: Configuration,
+        horizon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+    ) -> Hit:
         """
         The closest checked pair within the horizon [m]; names are empty if there is none.
         """
-    def find_hit(self, configuration: Configuration, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001) -> Hit | None:
+    def find_hit(
+        self,
+        configuration: Configuration,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> Hit | None:
         """
         The first pair found not farther apart than clearance [m], or None.
         """
-    def is_free(self, configuration: Configuration, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001) -> bool:
-        ...
+    def is_free(
+        self,
+        configuration: Configuration,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> bool: ...
     @property
-    def cell(self) -> Cell:
-        ...
+    def cell(self) -> Cell: ...
+
 class CertificateOptions:
     """
     Options of certify_edge.
     """
-    def __init__(self, *, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001, resolution: typing.SupportsFloat | typing.SupportsIndex = 0.0002) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        resolution: typing.SupportsFloat | typing.SupportsIndex = 0.0002,
+    ) -> None: ...
     @property
     def clearance(self) -> float:
         """
         Least distance proved along the edge [m].
         """
     @clearance.setter
-    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def resolution(self) -> float:
         """
         A stretch that moves no point farther and is not proved is given up [m].
         """
     @resolution.setter
-    def resolution(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def resolution(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class EdgeStatus:
     """
     Members:
@@ -1018,44 +1146,32 @@ class EdgeStatus:
 
       GivenUp
     """
+
     Colliding: typing.ClassVar[EdgeStatus]
     Free: typing.ClassVar[EdgeStatus]
     GivenUp: typing.ClassVar[EdgeStatus]
     __members__: typing.ClassVar[dict[str, EdgeStatus]]
     @typing.overload
-    def __eq__(self, other: EdgeStatus) -> bool:
-        ...
+    def __eq__(self, other: EdgeStatus) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: EdgeStatus) -> bool:
-        ...
+    def __ne__(self, other: EdgeStatus) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class EdgeResult:
     """
     Whether an edge is proved free, and what is in the way.
@@ -1076,32 +1192,28 @@ class EdgeResult:
         The pair in the way, unless free.
         """
     @property
-    def is_free(self) -> bool:
-        ...
+    def is_free(self) -> bool: ...
     @property
-    def status(self) -> EdgeStatus:
-        ...
+    def status(self) -> EdgeStatus: ...
+
 class Overlap:
     """
     Two resting bodies that overlap.
     """
     @property
-    def a(self) -> BodyRef:
-        ...
+    def a(self) -> BodyRef: ...
     @property
-    def b(self) -> BodyRef:
-        ...
+    def b(self) -> BodyRef: ...
     @property
     def depth(self) -> float:
         """
         How far one must be moved to part them, at least [m].
         """
     @property
-    def name_a(self) -> str:
-        ...
+    def name_a(self) -> str: ...
     @property
-    def name_b(self) -> str:
-        ...
+    def name_b(self) -> str: ...
+
 class PlanarPose:
     """
     Position and direction of the hand in the grasp plane.
@@ -1110,10 +1222,10 @@ class PlanarPose:
         x, y: finger grasp point in G [m].
         theta: direction of the hand's approach axis, from x of G [rad].
     """
-    def __init__(self, x: typing.Any = 0.0, y: typing.Any = 0.0, theta: typing.Any = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self, x: typing.Any = 0.0, y: typing.Any = 0.0, theta: typing.Any = 0.0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def theta(self) -> float:
         """
@@ -1129,6 +1241,7 @@ class PlanarPose:
         """
         [m]
         """
+
 class FacePair:
     """
     Two opposite faces that the jaws can hold.
@@ -1172,6 +1285,7 @@ class FacePair:
         """
         Distance between the faces at the origin of G [m].
         """
+
 class Rejection:
     """
     Why the jaws cannot take a pair.
@@ -1184,57 +1298,42 @@ class Rejection:
 
       LittleOverlap
     """
+
     LittleOverlap: typing.ClassVar[Rejection]
     TooThin: typing.ClassVar[Rejection]
     TooWide: typing.ClassVar[Rejection]
     __members__: typing.ClassVar[dict[str, Rejection]]
     @typing.overload
-    def __eq__(self, other: Rejection) -> bool:
-        ...
+    def __eq__(self, other: Rejection) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: Rejection) -> bool:
-        ...
+    def __ne__(self, other: Rejection) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class RejectedPair:
     """
     A pair that the jaws cannot take, and why.
     """
     @property
-    def face_a(self) -> int:
-        ...
+    def face_a(self) -> int: ...
     @property
-    def face_b(self) -> int:
-        ...
+    def face_b(self) -> int: ...
     @property
-    def kind(self) -> Rejection:
-        ...
+    def kind(self) -> Rejection: ...
     @property
     def reason(self) -> str:
         """
@@ -1245,44 +1344,48 @@ class RejectedPair:
         """
         [m]
         """
+
 class FeatureOptions:
     """
     Options of find_feature_pairs.
     """
-    def __init__(self, *, angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087, least_face_area: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05, least_overlap: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05, jaw_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        angle: typing.SupportsFloat | typing.SupportsIndex = 0.0087,
+        least_face_area: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05,
+        least_overlap: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05,
+        jaw_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+    ) -> None: ...
     @property
     def angle(self) -> float:
         """
         Most the normals leave antiparallel [rad].
         """
     @angle.setter
-    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def jaw_clearance(self) -> float:
         """
         The jaws open at least this much wider than the part, each side [m].
         """
     @jaw_clearance.setter
-    def jaw_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def jaw_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def least_face_area(self) -> float:
         """
         [m2]
         """
     @least_face_area.setter
-    def least_face_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least_face_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def least_overlap(self) -> float:
         """
         [m2]
         """
     @least_overlap.setter
-    def least_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class FeaturePairs:
     """
     A part's faces and the pairs of them.
@@ -1302,6 +1405,7 @@ class FeaturePairs:
         """
         RejectedPair.
         """
+
 class NearbyBody:
     """
     A body seen from the part.
@@ -1322,53 +1426,57 @@ class NearbyBody:
         BodyRef.
         """
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
+
 class RankingOptions:
     """
     Options of rank_grasps.
     """
+
     features: FeatureOptions
-    def __init__(self, *, features: FeatureOptions = ..., finger_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002, open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008, use_destination: bool = True, least_share: typing.SupportsFloat | typing.SupportsIndex = 0.02, most_targets: typing.SupportsInt | typing.SupportsIndex = 5) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        features: FeatureOptions = ...,
+        finger_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008,
+        use_destination: bool = True,
+        least_share: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        most_targets: typing.SupportsInt | typing.SupportsIndex = 5,
+    ) -> None: ...
     @property
     def finger_clearance(self) -> float:
         """
         Obstacles this near the finger's layer obstruct it [m].
         """
     @finger_clearance.setter
-    def finger_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def finger_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def least_share(self) -> float:
         """
         Pairs with less unobstructed are dropped.
         """
     @least_share.setter
-    def least_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def most_targets(self) -> int:
-        ...
+    def most_targets(self) -> int: ...
     @most_targets.setter
-    def most_targets(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def most_targets(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def open_clearance(self) -> float:
         """
         The open pads stand this far from the faces [m].
         """
     @open_clearance.setter
-    def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def use_destination(self) -> bool:
         """
         False: look at the origin only.
         """
     @use_destination.setter
-    def use_destination(self, arg0: bool) -> None:
-        ...
+    def use_destination(self, arg0: bool) -> None: ...
+
 class RankedPair:
     """
     A face pair and what of it stays unobstructed.
@@ -1404,8 +1512,7 @@ class RankedPair:
         Unobstructed / overlap area.
         """
     @property
-    def share_at_origin(self) -> float:
-        ...
+    def share_at_origin(self) -> float: ...
     @property
     def targets(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
         """
@@ -1416,6 +1523,7 @@ class RankedPair:
         """
         Region in (x, y) of G.
         """
+
 class Ranking:
     """
     A part's face pairs in the order to try them.
@@ -1440,6 +1548,7 @@ class Ranking:
         """
         RejectedPair.
         """
+
 class GraspScene:
     """
     A pick-and-place to plan.
@@ -1450,65 +1559,73 @@ class GraspScene:
         part: index in cell.parts.
         X_WP_goal: the part at its destination, (4, 4).
     """
-    def __init__(self, *, model: CollisionModel, cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, X_WP_goal: typing.Any) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        model: CollisionModel,
+        cell: Cell,
+        part: typing.SupportsInt | typing.SupportsIndex,
+        X_WP_goal: typing.Any,
+    ) -> None: ...
     @property
     def X_WP_goal(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
         """
         (4, 4)
         """
     @property
-    def cell(self) -> Cell:
-        ...
+    def cell(self) -> Cell: ...
     @property
-    def part(self) -> int:
-        ...
+    def part(self) -> int: ...
+
 class LegalityOptions:
     """
     Options of find_legal_grasps.
     """
-    def __init__(self, *, directions: typing.SupportsInt | typing.SupportsIndex = 24, open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0003, least_contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3, most_poses: typing.SupportsInt | typing.SupportsIndex = 16) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        directions: typing.SupportsInt | typing.SupportsIndex = 24,
+        open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0003,
+        least_contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        most_poses: typing.SupportsInt | typing.SupportsIndex = 16,
+    ) -> None: ...
     @property
     def clearance(self) -> float:
         """
         Of the whole robot [m].
         """
     @clearance.setter
-    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def directions(self) -> int:
         """
         Approach directions per target; those along edges come on top.
         """
     @directions.setter
-    def directions(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def directions(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def least_contact_share(self) -> float:
         """
         Of the pad on the unobstructed area.
         """
     @least_contact_share.setter
-    def least_contact_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least_contact_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def most_poses(self) -> int:
         """
         Returned per pair.
         """
     @most_poses.setter
-    def most_poses(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def most_poses(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def open_clearance(self) -> float:
         """
         The open pads stand this far from the faces, where there is room [m].
         """
     @open_clearance.setter
-    def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class GraspPose:
     """
     A grasp with all configurations that are legal for it.
@@ -1558,40 +1675,37 @@ class GraspPose:
         """
         Opening when closed on the part [m].
         """
+
 class LegalGrasps:
     """
     Legal grasps of a pair, and why others are not.
     """
     @property
-    def collides_at_destination(self) -> int:
-        ...
+    def collides_at_destination(self) -> int: ...
     @property
-    def collides_at_origin(self) -> int:
-        ...
+    def collides_at_origin(self) -> int: ...
     @property
     def poses(self) -> list[GraspPose]:
         """
         GraspPose, best merit first.
         """
     @property
-    def too_little_contact(self) -> int:
-        ...
+    def too_little_contact(self) -> int: ...
     @property
     def tried(self) -> int:
         """
         Candidates looked at.
         """
     @property
-    def unreachable_at_destination(self) -> int:
-        ...
+    def unreachable_at_destination(self) -> int: ...
     @property
-    def unreachable_at_origin(self) -> int:
-        ...
+    def unreachable_at_origin(self) -> int: ...
     @property
     def worst_reason(self) -> str:
         """
         The reason met most often.
         """
+
 class MotionGrid:
     """
     Filled cells of the grasp plane, one layer a gripper piece.
@@ -1607,8 +1721,13 @@ class MotionGrid:
     Raises:
         InvalidInput: for sizes that are not positive or more than 4096 cells a side.
     """
-    def __init__(self, centre: typing.Any, half_size: typing.SupportsFloat | typing.SupportsIndex, cell: typing.SupportsFloat | typing.SupportsIndex, layers: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def __init__(
+        self,
+        centre: typing.Any,
+        half_size: typing.SupportsFloat | typing.SupportsIndex,
+        cell: typing.SupportsFloat | typing.SupportsIndex,
+        layers: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
     def fill(self, layer: typing.SupportsInt | typing.SupportsIndex, region: Region) -> None:
         """
         Fill every cell of a layer that a region touches.
@@ -1617,7 +1736,9 @@ class MotionGrid:
             layer: index of the layer.
             region: Region in the grasp plane [m].
         """
-    def filled(self, layer: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.bool]:
+    def filled(
+        self, layer: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.bool]:
         """
         Cells of a layer as (side, side) bools, row along y, column along x.
         """
@@ -1625,7 +1746,9 @@ class MotionGrid:
         """
         Whether the point (2,) [m] lies on the grid.
         """
-    def touches(self, layer: typing.SupportsInt | typing.SupportsIndex, a: typing.Any, b: typing.Any) -> bool:
+    def touches(
+        self, layer: typing.SupportsInt | typing.SupportsIndex, a: typing.Any, b: typing.Any
+    ) -> bool:
         """
         Whether the segment from a (2,) to b (2,) [m] touches a filled cell of the layer.
         """
@@ -1645,13 +1768,13 @@ class MotionGrid:
         [m]
         """
     @property
-    def layers(self) -> int:
-        ...
+    def layers(self) -> int: ...
     @property
     def side(self) -> int:
         """
         Cells a side.
         """
+
 class OutlinePiece:
     """
     A convex piece of the gripper seen in the grasp plane.
@@ -1661,8 +1784,13 @@ class OutlinePiece:
             (of a hand that is not flipped) [m].
         lower, upper: extent along the closing axis, from the grasp plane [m].
     """
-    def __init__(self, polygon: typing.Any, *, lower: typing.SupportsFloat | typing.SupportsIndex = 0.0, upper: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
+    def __init__(
+        self,
+        polygon: typing.Any,
+        *,
+        lower: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        upper: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
     @property
     def lower(self) -> float:
         """
@@ -1678,20 +1806,20 @@ class OutlinePiece:
         """
         [m]
         """
+
 class GripperOutline:
     """
     The gripper at one opening: its pieces.
     """
-    def __init__(self, pieces: collections.abc.Sequence[OutlinePiece]) -> None:
-        ...
+    def __init__(self, pieces: collections.abc.Sequence[OutlinePiece]) -> None: ...
     @property
-    def pieces(self) -> list[OutlinePiece]:
-        ...
+    def pieces(self) -> list[OutlinePiece]: ...
     @property
     def radius(self) -> float:
         """
         Farthest point from the finger grasp point [m].
         """
+
 class BumpLine:
     """
     A segment off the gripper; its outward normal is its bump vector.
@@ -1716,42 +1844,45 @@ class BumpLine:
         """
         (2,) unit.
         """
+
 class QuasipotentialOptions:
     """
     Options of slide_to_target.
     """
-    def __init__(self, *, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.006, max_iterations: typing.SupportsInt | typing.SupportsIndex = 2000, progress_interval: typing.SupportsInt | typing.SupportsIndex = 20, torque_gain: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.006,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 2000,
+        progress_interval: typing.SupportsInt | typing.SupportsIndex = 20,
+        torque_gain: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+    ) -> None: ...
     @property
     def clearance(self) -> float:
         """
         Bump-line distance from the gripper, at least 1.5 cells [m].
         """
     @clearance.setter
-    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def max_iterations(self) -> int:
-        ...
+    def max_iterations(self) -> int: ...
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def progress_interval(self) -> int:
         """
         Iterations between two looks at the progress.
         """
     @progress_interval.setter
-    def progress_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def progress_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def torque_gain(self) -> float:
         """
         Turn per torque, before the one-cell limit [rad/m].
         """
     @torque_gain.setter
-    def torque_gain(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def torque_gain(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class SlideStatus:
     """
     How a slide ended.
@@ -1766,52 +1897,39 @@ class SlideStatus:
 
       StartBlocked
     """
+
     IterationLimit: typing.ClassVar[SlideStatus]
     Reached: typing.ClassVar[SlideStatus]
     Stalled: typing.ClassVar[SlideStatus]
     StartBlocked: typing.ClassVar[SlideStatus]
     __members__: typing.ClassVar[dict[str, SlideStatus]]
     @typing.overload
-    def __eq__(self, other: SlideStatus) -> bool:
-        ...
+    def __eq__(self, other: SlideStatus) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: SlideStatus) -> bool:
-        ...
+    def __ne__(self, other: SlideStatus) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class SlideResult:
     """
     The way of the hand in the grasp plane.
     """
     @property
-    def iterations(self) -> int:
-        ...
+    def iterations(self) -> int: ...
     @property
     def path(self) -> list[PlanarPose]:
         """
@@ -1823,63 +1941,69 @@ class SlideResult:
         Steps that the reach test refused.
         """
     @property
-    def status(self) -> SlideStatus:
-        ...
+    def status(self) -> SlideStatus: ...
+
 class ApproachOptions:
     """
     Options of plan_approach.
     """
+
     certificate: CertificateOptions
     legality: LegalityOptions
     slide: QuasipotentialOptions
-    def __init__(self, *, cell: typing.SupportsFloat | typing.SupportsIndex = 0.004, run_in: typing.SupportsFloat | typing.SupportsIndex = 0.1, least_run_in: typing.SupportsFloat | typing.SupportsIndex = 0.04, most_slides: typing.SupportsInt | typing.SupportsIndex = 8, slide: QuasipotentialOptions = ..., legality: LegalityOptions = ..., certificate: CertificateOptions = ..., contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3, destination_obstacles_join: bool = False) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        cell: typing.SupportsFloat | typing.SupportsIndex = 0.004,
+        run_in: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        least_run_in: typing.SupportsFloat | typing.SupportsIndex = 0.04,
+        most_slides: typing.SupportsInt | typing.SupportsIndex = 8,
+        slide: QuasipotentialOptions = ...,
+        legality: LegalityOptions = ...,
+        certificate: CertificateOptions = ...,
+        contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        destination_obstacles_join: bool = False,
+    ) -> None: ...
     @property
     def cell(self) -> float:
         """
         Of the motion grid [m].
         """
     @cell.setter
-    def cell(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def cell(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def contact_share(self) -> float:
         """
         Accepted overlap of the pad with the unobstructed faces.
         """
     @contact_share.setter
-    def contact_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def contact_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def destination_obstacles_join(self) -> bool:
         """
         As the article: obstacles moved by T^-1 stand in the way of the approach too.
         """
     @destination_obstacles_join.setter
-    def destination_obstacles_join(self, arg0: bool) -> None:
-        ...
+    def destination_obstacles_join(self, arg0: bool) -> None: ...
     @property
     def least_run_in(self) -> float:
         """
         The shortest one tried [m].
         """
     @least_run_in.setter
-    def least_run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least_run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def most_slides(self) -> int:
-        ...
+    def most_slides(self) -> int: ...
     @most_slides.setter
-    def most_slides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def most_slides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def run_in(self) -> float:
         """
         Distance of the start from the grasp [m].
         """
     @run_in.setter
-    def run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class ApproachStatus:
     """
     How an approach ended.
@@ -1898,6 +2022,7 @@ class ApproachStatus:
 
       NotCertified
     """
+
     Found: typing.ClassVar[ApproachStatus]
     IllegalAtDestination: typing.ClassVar[ApproachStatus]
     NotCertified: typing.ClassVar[ApproachStatus]
@@ -1906,48 +2031,33 @@ class ApproachStatus:
     StartBlocked: typing.ClassVar[ApproachStatus]
     __members__: typing.ClassVar[dict[str, ApproachStatus]]
     @typing.overload
-    def __eq__(self, other: ApproachStatus) -> bool:
-        ...
+    def __eq__(self, other: ApproachStatus) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: ApproachStatus) -> bool:
-        ...
+    def __ne__(self, other: ApproachStatus) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class ApproachResult:
     """
     An approach, or why there is none; true if found.
     """
-    def __bool__(self) -> bool:
-        ...
+    def __bool__(self) -> bool: ...
     @property
-    def found(self) -> bool:
-        ...
+    def found(self) -> bool: ...
     @property
     def grasp(self) -> GraspPose:
         """
@@ -1969,56 +2079,59 @@ class ApproachResult:
         SlideResult in the grasp plane.
         """
     @property
-    def status(self) -> ApproachStatus:
-        ...
+    def status(self) -> ApproachStatus: ...
+
 class RetreatOptions:
     """
     Options of plan_retreat.
     """
+
     certificate: CertificateOptions
-    def __init__(self, *, least: typing.SupportsFloat | typing.SupportsIndex = 0.02, most: typing.SupportsFloat | typing.SupportsIndex = 0.1, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, contact_travel: typing.SupportsFloat | typing.SupportsIndex = 0.0015, certificate: CertificateOptions = ...) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        least: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        most: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        step: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        contact_travel: typing.SupportsFloat | typing.SupportsIndex = 0.0015,
+        certificate: CertificateOptions = ...,
+    ) -> None: ...
     @property
     def contact_travel(self) -> float:
         """
         First step, with contacts allowed [m].
         """
     @contact_travel.setter
-    def contact_travel(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def contact_travel(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def least(self) -> float:
         """
         A shorter retreat is a failure [m].
         """
     @least.setter
-    def least(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def least(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def most(self) -> float:
         """
         Where it stops [m].
         """
     @most.setter
-    def most(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def most(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def step(self) -> float:
         """
         Between two hand poses [m].
         """
     @step.setter
-    def step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class RetreatResult:
     """
     A retreat, or why there is none; true if found.
     """
-    def __bool__(self) -> bool:
-        ...
+    def __bool__(self) -> bool: ...
     @property
-    def found(self) -> bool:
-        ...
+    def found(self) -> bool: ...
     @property
     def path(self) -> list[Configuration]:
         """
@@ -2034,34 +2147,37 @@ class RetreatResult:
         """
         [m]
         """
+
 class TimingOptions:
     """
     Options of time_path.
     """
-    def __init__(self, *, interval: typing.SupportsFloat | typing.SupportsIndex = 0.008, speed_scale: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        interval: typing.SupportsFloat | typing.SupportsIndex = 0.008,
+        speed_scale: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
     @property
     def interval(self) -> float:
         """
         Longest time between rows while the speed changes, 1e-4 to 1 [s].
         """
     @interval.setter
-    def interval(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def interval(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def speed_scale(self) -> float:
         """
         Of the velocity limits, in (0, 1].
         """
     @speed_scale.setter
-    def speed_scale(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def speed_scale(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class TimedPath:
     """
     Rows of a timed path; straight lines between them.
     """
-    def __len__(self) -> int:
-        ...
+    def __len__(self) -> int: ...
     @property
     def configurations(self) -> list[Configuration]:
         """
@@ -2087,37 +2203,43 @@ class TimedPath:
         """
         (n,) from 0, strictly increasing [s].
         """
+
 class SamplingOptions:
     """
     Options of plan_by_sampling.
     """
+
     certificate: CertificateOptions
-    def __init__(self, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, max_iterations: typing.SupportsInt | typing.SupportsIndex = 4000, range: typing.SupportsFloat | typing.SupportsIndex = 0.6, certificate: CertificateOptions = ...) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        seed: typing.SupportsInt | typing.SupportsIndex = 0,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 4000,
+        range: typing.SupportsFloat | typing.SupportsIndex = 0.6,
+        certificate: CertificateOptions = ...,
+    ) -> None: ...
     @property
     def max_iterations(self) -> int:
         """
         States sampled.
         """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def range(self) -> float:
         """
         Longest tree edge, in the weighted metric [rad].
         """
     @range.setter
-    def range(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def range(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def seed(self) -> int:
         """
         Fixes every random choice.
         """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
 class MotionStatus:
     """
     How a motion planner ended.
@@ -2132,54 +2254,40 @@ class MotionStatus:
 
       IterationLimit
     """
+
     Found: typing.ClassVar[MotionStatus]
     GoalsBlocked: typing.ClassVar[MotionStatus]
     IterationLimit: typing.ClassVar[MotionStatus]
     StartBlocked: typing.ClassVar[MotionStatus]
     __members__: typing.ClassVar[dict[str, MotionStatus]]
     @typing.overload
-    def __eq__(self, other: MotionStatus) -> bool:
-        ...
+    def __eq__(self, other: MotionStatus) -> bool: ...
     @typing.overload
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> int:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __index__(self) -> int:
-        ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __int__(self) -> int:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
     @typing.overload
-    def __ne__(self, other: MotionStatus) -> bool:
-        ...
+    def __ne__(self, other: MotionStatus) -> bool: ...
     @typing.overload
-    def __ne__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __str__(self) -> str:
-        ...
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def value(self) -> int:
-        ...
+    def value(self) -> int: ...
+
 class MotionResult:
     """
     A motion, or why there is none; true if found.
     """
-    def __bool__(self) -> bool:
-        ...
+    def __bool__(self) -> bool: ...
     @property
-    def found(self) -> bool:
-        ...
+    def found(self) -> bool: ...
     @property
     def goal(self) -> int:
         """
@@ -2206,39 +2314,47 @@ class MotionResult:
         Why not found, with names and numbers.
         """
     @property
-    def status(self) -> MotionStatus:
-        ...
+    def status(self) -> MotionStatus: ...
+
 class ShortcutOptions:
     """
     Options of shorten_path.
     """
+
     certificate: CertificateOptions
-    def __init__(self, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, attempts: typing.SupportsInt | typing.SupportsIndex = 60, certificate: CertificateOptions = ...) -> None:
-        ...
+    def __init__(
+        self,
+        *,
+        seed: typing.SupportsInt | typing.SupportsIndex = 0,
+        attempts: typing.SupportsInt | typing.SupportsIndex = 60,
+        certificate: CertificateOptions = ...,
+    ) -> None: ...
     @property
     def attempts(self) -> int:
         """
         Random shortcuts tried.
         """
     @attempts.setter
-    def attempts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def attempts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def seed(self) -> int:
         """
         Fixes every random choice.
         """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
 class GrossOptions:
     """
     Options of plan_gross_motion.
     """
+
     sampling: SamplingOptions
     shortcut: ShortcutOptions
-    def __init__(self, *, sampling: SamplingOptions = ..., shortcut: ShortcutOptions = ...) -> None:
-        ...
+    def __init__(
+        self, *, sampling: SamplingOptions = ..., shortcut: ShortcutOptions = ...
+    ) -> None: ...
+
 def body_poses(robot: Robot, configuration: Configuration) -> numpy.typing.NDArray[numpy.float64]:
     """
     Pose of every body in the robot frame.
@@ -2246,11 +2362,15 @@ def body_poses(robot: Robot, configuration: Configuration) -> numpy.typing.NDArr
     Returns:
         Array of shape (bodies, 4, 4).
     """
+
 def boundary_distance(region: Region, point: typing.Any) -> float:
     """
     Distance of a point (2,) to the nearest edge [m].
     """
-def bump_lines(outline: GripperOutline, clearance: typing.SupportsFloat | typing.SupportsIndex) -> list[BumpLine]:
+
+def bump_lines(
+    outline: GripperOutline, clearance: typing.SupportsFloat | typing.SupportsIndex
+) -> list[BumpLine]:
     """
     The edges of each piece grown by the clearance.
 
@@ -2264,11 +2384,15 @@ def bump_lines(outline: GripperOutline, clearance: typing.SupportsFloat | typing
     Raises:
         InvalidInput: for a clearance that is not positive, a piece that is not convex.
     """
+
 def centre_of_mass(body: Body) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
     Centre of mass in the body frame, uniform density, (3,) [m].
     """
-def certify_edge(checker: CollisionChecker, a: Configuration, b: Configuration, options: CertificateOptions = ...) -> EdgeResult:
+
+def certify_edge(
+    checker: CollisionChecker, a: Configuration, b: Configuration, options: CertificateOptions = ...
+) -> EdgeResult:
     """
     Prove that the straight joint-space edge from a to b is free.
 
@@ -2277,22 +2401,31 @@ def certify_edge(checker: CollisionChecker, a: Configuration, b: Configuration, 
     Raises:
         InvalidInput: for wrong lengths or numbers that are not finite.
     """
-def certify_path(checker: CollisionChecker, path: collections.abc.Sequence[Configuration], options: CertificateOptions = ...) -> EdgeResult:
+
+def certify_path(
+    checker: CollisionChecker,
+    path: collections.abc.Sequence[Configuration],
+    options: CertificateOptions = ...,
+) -> EdgeResult:
     """
     All edges of a path; the result is of the first that is not free.
     """
+
 def connected_components(mesh: TriangleMesh) -> list[TriangleMesh]:
     """
     The pieces of a mesh that share no edge.
     """
+
 def connected_parts(region: Region) -> list[Region]:
     """
     One region per connected piece, with its holes, largest first.
     """
+
 def contains_point(mesh: TriangleMesh, point: typing.Any) -> bool:
     """
     True if the point (3,) [m] is inside the solid.
     """
+
 def convex_hull(points: typing.Any) -> TriangleMesh:
     """
     The convex hull of points (n, 3) [m] as a mesh.
@@ -2300,6 +2433,7 @@ def convex_hull(points: typing.Any) -> TriangleMesh:
     Raises:
         InvalidInput: E_MESH_DEGENERATE for fewer than four points or points in one plane.
     """
+
 def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = ...) -> FeaturePairs:
     """
     Pairs of planar faces that a parallel jaw can hold (article, step 1).
@@ -2315,7 +2449,13 @@ def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = .
     Raises:
         InvalidInput: for a part without shapes, bad shapes or options.
     """
-def find_legal_grasps(scene: GraspScene, solver: SphericalWristSolver, pair: RankedPair, options: LegalityOptions = ...) -> LegalGrasps:
+
+def find_legal_grasps(
+    scene: GraspScene,
+    solver: SphericalWristSolver,
+    pair: RankedPair,
+    options: LegalityOptions = ...,
+) -> LegalGrasps:
     """
     Hand poses on a face pair at which hand and arm are legal at both ends.
 
@@ -2331,15 +2471,32 @@ def find_legal_grasps(scene: GraspScene, solver: SphericalWristSolver, pair: Ran
     Raises:
         InvalidInput: for a scene with a part in the hand, an unknown part, bad options.
     """
-def find_overlaps(model: CollisionModel, cell: Cell, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0005) -> list[Overlap]:
+
+def find_overlaps(
+    model: CollisionModel,
+    cell: Cell,
+    tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0005,
+) -> list[Overlap]:
     """
     Pairs of fixtures and parts, a part among them, that overlap deeper than tolerance [m].
     """
-def fingertip_targets(unobstructed: Region, centre_of_mass: typing.Any, gripper: Gripper, most: typing.SupportsInt | typing.SupportsIndex = 5) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+
+def fingertip_targets(
+    unobstructed: Region,
+    centre_of_mass: typing.Any,
+    gripper: Gripper,
+    most: typing.SupportsInt | typing.SupportsIndex = 5,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
     """
     At most `most` fingertip targets in a region, best first, (n, 2) [m].
     """
-def follow_hand_path(solver: SphericalWristSolver, X_RH_path: collections.abc.Sequence, q_start: typing.Any, options: HandPathOptions = ...) -> HandPathResult:
+
+def follow_hand_path(
+    solver: SphericalWristSolver,
+    X_RH_path: collections.abc.Sequence[typing.Any],
+    q_start: typing.Any,
+    options: HandPathOptions = ...,
+) -> HandPathResult:
     """
     Joint configurations along hand poses, each nearest to the one before.
 
@@ -2347,7 +2504,13 @@ def follow_hand_path(solver: SphericalWristSolver, X_RH_path: collections.abc.Se
         X_RH_path: poses in the robot frame, (n, 4, 4).
         q_start: (6,) [rad].
     """
-def gripper_outline(robot: Robot, opening: typing.SupportsFloat | typing.SupportsIndex, flipped: bool, depth: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> GripperOutline:
+
+def gripper_outline(
+    robot: Robot,
+    opening: typing.SupportsFloat | typing.SupportsIndex,
+    flipped: bool,
+    depth: typing.SupportsFloat | typing.SupportsIndex = 0.25,
+) -> GripperOutline:
     """
     Pieces of the fingers and of the hand's body in the grasp plane.
 
@@ -2363,46 +2526,72 @@ def gripper_outline(robot: Robot, opening: typing.SupportsFloat | typing.Support
     Raises:
         InvalidInput: for an opening outside the gripper's, a depth that is not positive.
     """
-def hand_in_plane(pose: PlanarPose, flipped: bool) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+
+def hand_in_plane(
+    pose: PlanarPose, flipped: bool
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     The grasp frame in the plane frame, (4, 4): z_H = (cos, sin, 0), y_H = +z_G, or -z_G if flipped.
     """
-def hand_in_world(cell: Cell, q: typing.Any) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+
+def hand_in_world(
+    cell: Cell, q: typing.Any
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     Grasp frame in the world, (4, 4).
     """
-def hand_pose(robot: Robot, q: typing.Any) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+
+def hand_pose(
+    robot: Robot, q: typing.Any
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     Grasp frame in the robot frame, X_RH, shape (4, 4).
 
     Args:
         q: arm joints, shape (n,) [rad].
     """
+
 def hull_points(shape: Shape) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
     """
     Points (n, 3) [m] in the body frame whose convex hull contains the shape.
     """
+
 def inspect_surface(mesh: TriangleMesh) -> SurfaceReport:
     """
     What a mesh's surface is: closed, volume, box.
     """
+
 def intersect(a: Region, b: Region) -> Region:
     """
     What two regions have in common.
     """
-def is_convex(mesh: TriangleMesh, tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06) -> bool:
+
+def is_convex(
+    mesh: TriangleMesh, tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06
+) -> bool:
     """
     True if a mesh is a closed convex solid to `tolerance` [m].
     """
-def largest_inscribed_circle(region: Region, precision: typing.SupportsFloat | typing.SupportsIndex = 0.0001) -> InscribedCircle:
+
+def largest_inscribed_circle(
+    region: Region, precision: typing.SupportsFloat | typing.SupportsIndex = 0.0001
+) -> InscribedCircle:
     """
     The largest circle inside a region, to `precision` [m].
     """
+
 def limit_violation(robot: Robot, q: typing.Any) -> str:
     """
     Empty if q (n,) [rad] is within the limits (to 1e-9), else what is wrong.
     """
-def load_mesh(path: os.PathLike | str | bytes, *, scale: typing.Any = 1.0, must_be_closed: bool = False, greatest_size: typing.SupportsFloat | typing.SupportsIndex = 20.0) -> LoadedMesh:
+
+def load_mesh(
+    path: os.PathLike[str] | str | bytes,
+    *,
+    scale: typing.Any = 1.0,
+    must_be_closed: bool = False,
+    greatest_size: typing.SupportsFloat | typing.SupportsIndex = 20.0,
+) -> LoadedMesh:
     """
     Reads an STL, OBJ or PLY mesh strictly.
 
@@ -2416,6 +2605,7 @@ def load_mesh(path: os.PathLike | str | bytes, *, scale: typing.Any = 1.0, must_
         InvalidInput: E_PATH, E_MESH_EMPTY, E_MESH_TRUNCATED, E_MESH_FORMAT, E_NUMBER, E_RANGE, E_MESH_DEGENERATE,
             E_NOT_CLOSED, E_NOT_MANIFOLD, E_INDEX, E_TOO_BIG, E_UNITS, E_UNSUPPORTED, E_SCALE.
     """
+
 def load_robot(urdf_path: str, description: RobotDescription) -> LoadedRobot:
     """
     Reads a URDF strictly.
@@ -2423,15 +2613,23 @@ def load_robot(urdf_path: str, description: RobotDescription) -> LoadedRobot:
     Raises:
         InvalidInput: with every fault of the file and of the description's names and numbers.
     """
+
 def make_collision_model(cell: Cell) -> CollisionModel:
     """
     Prepare a cell's shapes for collision checking. Raises InvalidInput for invalid cells.
     """
+
 def motion_bound(checker: CollisionChecker, a: Configuration, b: Configuration) -> float:
     """
     Upper bound on how far any point of robot and held part travels along the edge [m].
     """
-def nearby_bodies(cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, X_WP_goal: typing.Any, radius: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> list[NearbyBody]:
+
+def nearby_bodies(
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    X_WP_goal: typing.Any,
+    radius: typing.SupportsFloat | typing.SupportsIndex = 0.25,
+) -> list[NearbyBody]:
     """
     What is near a part at its origin and at its destination, seen from the part (Figure 4).
 
@@ -2447,15 +2645,25 @@ def nearby_bodies(cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, X
     Raises:
         InvalidInput: for an unknown part, a bad pose or radius.
     """
+
 def offset(region: Region, delta: typing.SupportsFloat | typing.SupportsIndex) -> Region:
     """
     A region grown (delta > 0) or shrunk by delta [m], corners mitred: grown, it contains the true offset.
     """
+
 def pad_contact_area(region: Region, pose: PlanarPose, gripper: Gripper) -> float:
     """
     Area of one pad on a region of the grasp plane, the hand at a PlanarPose [m2].
     """
-def plan_approach(scene: GraspScene, solver: SphericalWristSolver, pair: RankedPair, aim: GraspPose, q_pick: typing.Any, options: ApproachOptions = ...) -> ApproachResult:
+
+def plan_approach(
+    scene: GraspScene,
+    solver: SphericalWristSolver,
+    pair: RankedPair,
+    aim: GraspPose,
+    q_pick: typing.Any,
+    options: ApproachOptions = ...,
+) -> ApproachResult:
     """
     Plan how the open hand comes to a grasp: step 4 of the article.
 
@@ -2476,7 +2684,13 @@ def plan_approach(scene: GraspScene, solver: SphericalWristSolver, pair: RankedP
     Raises:
         InvalidInput: for options out of range, a hand that is not empty, a q_pick not at the aim.
     """
-def plan_by_sampling(checker: CollisionChecker, start: Configuration, goals: collections.abc.Sequence[Configuration], options: SamplingOptions = ...) -> MotionResult:
+
+def plan_by_sampling(
+    checker: CollisionChecker,
+    start: Configuration,
+    goals: collections.abc.Sequence[Configuration],
+    options: SamplingOptions = ...,
+) -> MotionResult:
     """
     Plan a motion by RRT-Connect over all joints, every edge certified.
 
@@ -2492,7 +2706,13 @@ def plan_by_sampling(checker: CollisionChecker, start: Configuration, goals: col
     Raises:
         InvalidInput: for no goal, wrong lengths, numbers or options, configurations outside the limits.
     """
-def plan_gross_motion(checker: CollisionChecker, start: Configuration, goals: collections.abc.Sequence[Configuration], options: GrossOptions = ...) -> MotionResult:
+
+def plan_gross_motion(
+    checker: CollisionChecker,
+    start: Configuration,
+    goals: collections.abc.Sequence[Configuration],
+    options: GrossOptions = ...,
+) -> MotionResult:
     """
     Plan a gross motion: straight if that is free, else by sampling; then shortened.
 
@@ -2510,7 +2730,15 @@ def plan_gross_motion(checker: CollisionChecker, start: Configuration, goals: co
     Raises:
         InvalidInput: for no goal, wrong lengths, numbers or options, configurations outside the limits.
     """
-def plan_retreat(in_contact: CollisionChecker, clear: CollisionChecker, solver: SphericalWristSolver, start: Configuration, direction: typing.Any, options: RetreatOptions = ...) -> RetreatResult:
+
+def plan_retreat(
+    in_contact: CollisionChecker,
+    clear: CollisionChecker,
+    solver: SphericalWristSolver,
+    start: Configuration,
+    direction: typing.Any,
+    options: RetreatOptions = ...,
+) -> RetreatResult:
     """
     Move the hand straight out of contact, with what it holds.
 
@@ -2531,7 +2759,14 @@ def plan_retreat(in_contact: CollisionChecker, clear: CollisionChecker, solver: 
     Raises:
         InvalidInput: for wrong lengths, numbers or options.
     """
-def planar_faces(mesh: TriangleMesh, *, angle: typing.SupportsFloat | typing.SupportsIndex = 0.001, distance: typing.SupportsFloat | typing.SupportsIndex = 1e-05, least_area: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> list[PlanarFace]:
+
+def planar_faces(
+    mesh: TriangleMesh,
+    *,
+    angle: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+    distance: typing.SupportsFloat | typing.SupportsIndex = 1e-05,
+    least_area: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+) -> list[PlanarFace]:
     """
     The planar faces of a solid, largest first.
 
@@ -2544,7 +2779,10 @@ def planar_faces(mesh: TriangleMesh, *, angle: typing.SupportsFloat | typing.Sup
     Raises:
         InvalidInput: E_RANGE for negative or non-finite options.
     """
-def pose_from_xyz_quat(xyz: typing.Any, quat_xyzw: typing.Any) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+
+def pose_from_xyz_quat(
+    xyz: typing.Any, quat_xyzw: typing.Any
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     A pose from a position and a unit quaternion.
 
@@ -2558,7 +2796,10 @@ def pose_from_xyz_quat(xyz: typing.Any, quat_xyzw: typing.Any) -> typing.Annotat
     Raises:
         InvalidInput: E_NUMBER, E_QUATERNION.
     """
-def pose_from_xyz_rpy(xyz: typing.Any, rpy: typing.Any) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+
+def pose_from_xyz_rpy(
+    xyz: typing.Any, rpy: typing.Any
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     A pose from a position and roll, pitch, yaw about the fixed axes.
 
@@ -2572,11 +2813,22 @@ def pose_from_xyz_rpy(xyz: typing.Any, rpy: typing.Any) -> typing.Annotated[nump
     Raises:
         InvalidInput: E_NUMBER if a number is not finite.
     """
-def quaternion_xyzw(pose: typing.Any) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+
+def quaternion_xyzw(
+    pose: typing.Any,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
     """
     The rotation of a 4 x 4 pose as a unit quaternion (x, y, z, w), w >= 0.
     """
-def rank_grasps(cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, X_WP_goal: typing.Any, options: RankingOptions = ..., *, features: FeaturePairs = None) -> Ranking:
+
+def rank_grasps(
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    X_WP_goal: typing.Any,
+    options: RankingOptions = ...,
+    *,
+    features: FeaturePairs | None = None,
+) -> Ranking:
     """
     Rank a part's face pairs by what stays unobstructed at both ends (article, steps 1-3).
 
@@ -2593,11 +2845,21 @@ def rank_grasps(cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, X_W
     Raises:
         InvalidInput: for an unknown part, a bad pose or bad options.
     """
-def robot_overlaps(checker: CollisionChecker, configuration: Configuration, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0005) -> list[Hit]:
+
+def robot_overlaps(
+    checker: CollisionChecker,
+    configuration: Configuration,
+    tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0005,
+) -> list[Hit]:
     """
     Pairs of robot or held part and others that overlap deeper than tolerance [m].
     """
-def shorten_path(checker: CollisionChecker, path: collections.abc.Sequence[Configuration], options: ShortcutOptions = ...) -> list[Configuration]:
+
+def shorten_path(
+    checker: CollisionChecker,
+    path: collections.abc.Sequence[Configuration],
+    options: ShortcutOptions = ...,
+) -> list[Configuration]:
     """
     Shorten a certified path; same ends, never longer, every new edge certified.
 
@@ -2612,7 +2874,13 @@ def shorten_path(checker: CollisionChecker, path: collections.abc.Sequence[Confi
     Raises:
         InvalidInput: for an empty path, wrong lengths, numbers or options, waypoints outside the limits.
     """
-def slab_projection(shape: Shape, X_GB: typing.Any, lower: typing.SupportsFloat | typing.SupportsIndex, upper: typing.SupportsFloat | typing.SupportsIndex) -> Region:
+
+def slab_projection(
+    shape: Shape,
+    X_GB: typing.Any,
+    lower: typing.SupportsFloat | typing.SupportsIndex,
+    upper: typing.SupportsFloat | typing.SupportsIndex,
+) -> Region:
     """
     What of a shape lies between two planes, seen along their normal.
 
@@ -2625,7 +2893,15 @@ def slab_projection(shape: Shape, X_GB: typing.Any, lower: typing.SupportsFloat 
     Returns:
         Region in x, y of G; contains the true projection to 1e-6 m.
     """
-def slide_to_target(grid: MotionGrid, outline: GripperOutline, start: PlanarPose, target: typing.Any, reachable: typing.Any = None, options: QuasipotentialOptions = ...) -> SlideResult:
+
+def slide_to_target(
+    grid: MotionGrid,
+    outline: GripperOutline,
+    start: PlanarPose,
+    target: typing.Any,
+    reachable: typing.Any = None,
+    options: QuasipotentialOptions = ...,
+) -> SlideResult:
     """
     Slide the gripper from a start toward a target: the article's quasipotential method.
 
@@ -2648,11 +2924,15 @@ def slide_to_target(grid: MotionGrid, outline: GripperOutline, start: PlanarPose
         InvalidInput: if start or target lie outside the grid, layers and pieces differ in number, or an
             option is out of range.
     """
+
 def subtract(a: Region, b: Region) -> Region:
     """
     Region a without region b.
     """
-def tessellate(shape: Shape, segments: typing.SupportsInt | typing.SupportsIndex = 32, outer: bool = True) -> TriangleMesh:
+
+def tessellate(
+    shape: Shape, segments: typing.SupportsInt | typing.SupportsIndex = 32, outer: bool = True
+) -> TriangleMesh:
     """
     A shape as a closed triangle mesh in the body frame.
 
@@ -2661,7 +2941,15 @@ def tessellate(shape: Shape, segments: typing.SupportsInt | typing.SupportsIndex
         segments: sides of cylinders and spheres.
         outer: True: the polyhedron contains the round shape; False: it is contained in it.
     """
-def test_grasp_pose(scene: GraspScene, solver: SphericalWristSolver, pair: RankedPair, pose: PlanarPose, flipped: bool, options: LegalityOptions = ...) -> LegalGrasps:
+
+def test_grasp_pose(
+    scene: GraspScene,
+    solver: SphericalWristSolver,
+    pair: RankedPair,
+    pose: PlanarPose,
+    flipped: bool,
+    options: LegalityOptions = ...,
+) -> LegalGrasps:
     """
     Is one hand pose of a pair legal at both ends?
 
@@ -2679,7 +2967,10 @@ def test_grasp_pose(scene: GraspScene, solver: SphericalWristSolver, pair: Ranke
     Raises:
         InvalidInput: as find_legal_grasps.
     """
-def time_path(robot: Robot, path: collections.abc.Sequence[Configuration], options: TimingOptions = ...) -> TimedPath:
+
+def time_path(
+    robot: Robot, path: collections.abc.Sequence[Configuration], options: TimingOptions = ...
+) -> TimedPath:
     """
     Time a path: the shortest time along the polyline within the limits.
 
@@ -2696,10 +2987,17 @@ def time_path(robot: Robot, path: collections.abc.Sequence[Configuration], optio
     Raises:
         InvalidInput: for an empty path, wrong lengths, numbers or options, or a path outside the limits.
     """
-def touching_bodies(model: CollisionModel, cell: Cell, part: typing.SupportsInt | typing.SupportsIndex, gap: typing.SupportsFloat | typing.SupportsIndex = 0.0006) -> list[BodyRef]:
+
+def touching_bodies(
+    model: CollisionModel,
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    gap: typing.SupportsFloat | typing.SupportsIndex = 0.0006,
+) -> list[BodyRef]:
     """
     The bodies that a part touches where it stands, or nearly: within gap [m].
     """
+
 def travel_time(robot: Robot, path: collections.abc.Sequence[Configuration]) -> float:
     """
     Least time along a path at the velocity limits alone, sum of max_j |dq_j| / v_j [s].
@@ -2711,8 +3009,10 @@ def travel_time(robot: Robot, path: collections.abc.Sequence[Configuration]) -> 
     Returns:
         Seconds; never more than time_path takes.
     """
+
 def unite(regions: collections.abc.Sequence[Region]) -> Region:
     """
     The union of regions.
     """
-__version__: str = '0.1.0'
+
+__version__: str = "0.1.0"

@@ -348,7 +348,8 @@ def _withdraw(
 
 def _turned(hand: np.ndarray, angle: float) -> np.ndarray:
     """The direction back along the hand, turned in the grasp plane."""
-    return -np.cos(angle) * hand[:3, 2] + np.sin(angle) * hand[:3, 0]
+    direction: np.ndarray = np.sin(angle) * hand[:3, 0] - np.cos(angle) * hand[:3, 2]
+    return direction
 
 
 def _open_and_go(

@@ -195,7 +195,9 @@ def _plan_goals(
             after = progress.cell.with_part_at(part, goal.X_WP)
             is_last = all(i == index or _is_met(after, goals[i]) for i in pending)
             home = cell_file.cell.start.q if is_last and task.return_to_start else None
-            scene = _core.GraspScene(model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP)
+            scene = _core.GraspScene(
+                model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP
+            )
             work = Workspace(model, scene, solver, progress.current, home, clock)
             carry = _plan_goal(work, options, goal_report, stop_at)
             if carry is not None:
@@ -262,7 +264,7 @@ def _unstable(work: Workspace) -> str:
 
 
 def _carried_by(work: Workspace) -> list[str]:
-    """Names of the parts that stand stably with the scene's part in its place, but not without it."""
+    """Names of the parts that stand stably with the scene's part in place, not without it."""
     scene = work.scene
     without = scene.cell.with_held(scene.part, np.eye(4))
     fallen = []
