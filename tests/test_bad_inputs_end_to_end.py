@@ -1,7 +1,7 @@
-"""Bad files behind a cell: `handey plan` ends with 2, tells each fault in one line, and writes nothing.
+"""Bad files behind a cell: `handey plan` ends with 2, tells each fault, and writes nothing.
 
-The cell, its robot and its mesh are right but for one change; each line must name the file, the place
-and what is wrong.
+The cell, its robot and its mesh are right but for one change; each line must name the file, the
+place and what is wrong.
 """
 
 from __future__ import annotations
@@ -155,7 +155,10 @@ URDF_CASES: dict[str, tuple[str | bytes, str]] = {
     "no child": (changed('<child link="link3"/>', ""), "joint 'joint3': names no <child> link"),
     "no limit": (changed(LIMIT, ""), "joint 'joint1': has no <limit>; expected one with lower"),
     "reversed limit": (limit("2", "-2"), "the limits are 2 to -2; expected lower < upper"),
-    "absent limits": (limit("", ""), "line 40: joint 'joint1': <limit> has neither lower nor upper"),
+    "absent limits": (
+        limit("", ""),
+        "line 40: joint 'joint1': <limit> has neither lower nor upper",
+    ),
     "no velocity": (limit(velocity=""), "joint 'joint1': <limit> has no velocity"),
     "zero velocity": (limit(velocity="0"), "the velocity limit is 0; expected more than 0"),
     "negative velocity": (limit(velocity="-1"), "the velocity limit is -1; expected more than 0"),
@@ -163,7 +166,10 @@ URDF_CASES: dict[str, tuple[str | bytes, str]] = {
     "infinite limit": (limit(upper="inf"), "<limit> upper has 'inf'; expected a finite number"),
     "1e400": (limit(upper="1e400"), "<limit> upper has '1e400'; expected a finite number"),
     "degrees": (limit("-160", "160"), "the limits are -160 to 160 rad; are they in degrees?"),
-    "decimal comma": (limit(upper="1,5"), "upper has '1,5'; expected a finite number, with a decimal"),
+    "decimal comma": (
+        limit(upper="1,5"),
+        "upper has '1,5'; expected a finite number, with a decimal",
+    ),
     "xacro": (limit(upper="${pi}"), 'upper="${pi}" is left over from xacro; expand the file first'),
     "zero axis": (axis("0 0 0"), "line 39: joint 'joint1': the axis is zero"),
     "axis of two": (axis("0 1"), "<axis> xyz has 2 numbers; expected 3 finite numbers"),
@@ -229,24 +235,34 @@ def test_a_cell_with_a_wrong_urdf_is_refused_in_one_line(name, bench, capsys):
 SEVERAL: dict[str, tuple[str, list[str]]] = {
     "unknown kind": (
         changed(TYPE, TYPE.replace("revolute", "hinge")),
-        ["puma560.urdf: line 35: joint 'joint1': the type 'hinge' is unknown; known are 'revolute'",
-         "robot.yaml: arm: 'joint1' is hinge; expected revolute"],
+        [
+            "puma560.urdf: line 35: joint 'joint1': the type 'hinge' is unknown; known are",
+            "robot.yaml: arm: 'joint1' is hinge; expected revolute",
+        ],
     ),
     "planar": (
         changed(TYPE, TYPE.replace("revolute", "planar")),
-        ["puma560.urdf: line 35: joint 'joint1': the type 'planar' is not supported",
-         "robot.yaml: arm: 'joint1' is planar; expected revolute"],
+        [
+            "puma560.urdf: line 35: joint 'joint1': the type 'planar' is not supported",
+            "robot.yaml: arm: 'joint1' is planar; expected revolute",
+        ],
     ),
     "misspelt attribute": (
         changed('<parent link="link2"/>', '<parent lnk="link2"/>'),
-        ["line 74: joint 'joint3': <parent> has the unknown attribute 'lnk'; known are 'link'",
-         "line 72: joint 'joint3': names no <parent> link"],
+        [
+            "line 74: joint 'joint3': <parent> has the unknown attribute 'lnk'; known are 'link'",
+            "line 72: joint 'joint3': names no <parent> link",
+        ],
     ),
     "empty name": (
         changed('<link name="link3">', '<link name="">'),
-        ["line 79: <link> has no name", "the child 'link3' is no link", "the parent 'link3' is no link"],
+        [
+            "line 79: <link> has no name",
+            "the child 'link3' is no link",
+            "the parent 'link3' is no link",
+        ],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", SEVERAL)
@@ -331,23 +347,51 @@ MESH_CASES: dict[str, tuple[str, str | bytes, str]] = {
     "trailing": ("stl", stl() + b"junk", "found 4 bytes after the last of 12 triangles"),
     "nan": ("stl", stl(corners=with_corner(np.nan)), "triangle 0 has a vertex that is not finite"),
     "nan text": ("obj", obj(corners=with_corner(np.nan)), "p.obj: line 1: found 'nan', expected"),
-    "1e30": ("stl", stl(corners=with_corner(1e30)), "has a coordinate of 4e+28 m, expected at most"),
+    "1e30": (
+        "stl",
+        stl(corners=with_corner(1e30)),
+        "has a coordinate of 4e+28 m, expected at most",
+    ),
     "slivers": ("stl", stl([(0, 0, 1)] * 12), "found only triangles without area"),
     "flat": ("obj", obj([(1, 2, 3)] * 4), "encloses no volume, expected a solid"),
-    "open": ("stl", stl(TRIANGLES[1:]), "3 edges with a triangle on one side only, expected a closed"),
-    "index 0": ("obj", obj([(-1, 0, 1), *TRIANGLES]), "line 9: found vertex index 0, expected 1 to 8"),
-    "index 900": ("obj", obj([*TRIANGLES, (0, 1, 899)]), "line 21: found vertex index 900, expected"),
+    "open": (
+        "stl",
+        stl(TRIANGLES[1:]),
+        "3 edges with a triangle on one side only, expected a closed",
+    ),
+    "index 0": (
+        "obj",
+        obj([(-1, 0, 1), *TRIANGLES]),
+        "line 9: found vertex index 0, expected 1 to 8",
+    ),
+    "index 900": (
+        "obj",
+        obj([*TRIANGLES, (0, 1, 899)]),
+        "line 21: found vertex index 900, expected",
+    ),
     "no faces": ("obj", obj([]), "found no triangles"),
     "decimal comma": ("obj", obj().replace(".", ","), "line 2: found '0,04'"),
-    "too large": ("stl", stl([], count=5_000_000) + b"\0" * 250_000_000, "expected at most 67108864"),
-    "millimetres": ("obj", obj(size=500), "500 m long at scale [1 1 1], expected at most 20 m; a file in"),
+    "too large": (
+        "stl",
+        stl([], count=5_000_000) + b"\0" * 250_000_000,
+        "expected at most 67108864",
+    ),
+    "millimetres": (
+        "obj",
+        obj(size=500),
+        "500 m long at scale [1 1 1], expected at most 20 m; a file in",
+    ),
     "zip": ("zip", b"PK\3\4" + b"\0" * 99, "found a ZIP archive (or 3MF), expected an STL"),
     "bz2": ("bz2", b"BZh9" + b"\0" * 99, "found a bzip2 archive, expected an STL"),
     "zip as STL": ("stl", b"PK\3\4" + b"\0" * 99, "found a ZIP archive (or 3MF), expected an STL"),
-    "picture": ("obj", b"\x89PNG\r\n\x1a\n" + b"\0" * 99, "found a file of no known kind, expected an STL"),
+    "picture": (
+        "obj",
+        b"\x89PNG\r\n\x1a\n" + b"\0" * 99,
+        "found a file of no known kind, expected an STL",
+    ),
     "COLLADA": ("dae", "<COLLADA/>", "found a COLLADA file, expected an STL"),
     "long face": ("obj", obj([tuple(range(8)) * 1000]), "found a face of 8000 corners"),
-}  # fmt: skip
+}
 
 
 def mesh_cell(bench: Path, ending: str, content: str | bytes) -> None:
@@ -386,24 +430,49 @@ def test_an_odd_mesh_is_read_by_its_content_and_its_plan_is_valid(ending, conten
 # The cell
 
 CELL_CASES: dict[str, tuple[str, str, str]] = {
-    "sunk goal": ("[0.45, -0.25, 0.015]", "[0.45, -0.25, 0]",
-                  "task[0].at: 'block' overlaps 'table' at its goal by 15.0 mm"),
-    "inside": ("[0.45, -0.25, 0.015]", "[0.45, -0.25, -0.025]", "task[0].at: 'block' overlaps 'table'"),
-    "in the air": ("[0.45, -0.25, 0.015]", "[0.45, -0.25, 0.5]",
-                   "'block' does not stand stably at its goal: nothing is within 0.6 mm below it"),
-    "few joints": ("robot.yaml}", "robot.yaml, start: [0, 0, 0]}",
-                   "robot.start: expected 6 numbers, one for each arm joint, found 3"),
-    "limit": ("robot.yaml}", "robot.yaml, start: [2.8, 1.57, -1.57, 0, 0, 0]}",
-              "robot.start[0]: joint1 = 2.8 rad lies outside its limits -2.79253 to 2.79253 rad"),
-    "opening": ("robot.yaml}", "robot.yaml, start_opening: 0.2}",
-                "robot.start_opening: expected an opening from 0 to 0.1 m, found 0.2"),
-    "robot in the table": ("robot.yaml}", "robot.yaml, base: {xyz: [0, 0, -1]}}",
-                           "robot.start: 'link2' of the robot overlaps 'table' at the start by"),
+    "sunk goal": (
+        "[0.45, -0.25, 0.015]",
+        "[0.45, -0.25, 0]",
+        "task[0].at: 'block' overlaps 'table' at its goal by 15.0 mm",
+    ),
+    "inside": (
+        "[0.45, -0.25, 0.015]",
+        "[0.45, -0.25, -0.025]",
+        "task[0].at: 'block' overlaps 'table'",
+    ),
+    "in the air": (
+        "[0.45, -0.25, 0.015]",
+        "[0.45, -0.25, 0.5]",
+        "'block' does not stand stably at its goal: nothing is within 0.6 mm below it",
+    ),
+    "few joints": (
+        "robot.yaml}",
+        "robot.yaml, start: [0, 0, 0]}",
+        "robot.start: expected 6 numbers, one for each arm joint, found 3",
+    ),
+    "limit": (
+        "robot.yaml}",
+        "robot.yaml, start: [2.8, 1.57, -1.57, 0, 0, 0]}",
+        "robot.start[0]: joint1 = 2.8 rad lies outside its limits -2.79253 to 2.79253 rad",
+    ),
+    "opening": (
+        "robot.yaml}",
+        "robot.yaml, start_opening: 0.2}",
+        "robot.start_opening: expected an opening from 0 to 0.1 m, found 0.2",
+    ),
+    "robot in the table": (
+        "robot.yaml}",
+        "robot.yaml, base: {xyz: [0, 0, -1]}}",
+        "robot.start: 'link2' of the robot overlaps 'table' at the start by",
+    ),
     "no robot file": ("robot.yaml", "none.yaml", "robot.file: 'none.yaml' cannot be read"),
-    "no friction": ("box: [0.04", "friction: 0, box: [0.04",
-                    "parts.block.friction: expected a number greater than 0, found 0"),
+    "no friction": (
+        "box: [0.04",
+        "friction: 0, box: [0.04",
+        "parts.block.friction: expected a number greater than 0, found 0",
+    ),
     "goal on": ("at: {xyz: [0.45, -0.25, 0.015]}", "on: tabel", "task[0].on: there is no fixture"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", CELL_CASES)

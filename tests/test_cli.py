@@ -67,10 +67,11 @@ class StandInCell:
 
 def some_plan() -> Plan:
     steps = []
-    for action in ACTIONS:
+    for index, action in enumerate(ACTIONS):
         held = action in ("depart", "transfer", "deposit")
         part, X_HP = ("block", np.eye(4)) if held else (None, None)
-        steps.append(Step(action, 0, part, X_HP, [0.0, 1.0], [[0.0], [1.0]], [0.1, 0.03]))
+        time = [float(index), index + 1.0]
+        steps.append(Step(action, 0, part, X_HP, time, [[0.0], [1.0]], [0.1, 0.03]))
     return Plan("test", ("a",), tuple(steps), {"block": np.eye(4)}, {"wall_s": 0.6})
 
 
@@ -114,7 +115,7 @@ def test_a_plan_found_is_written_and_told(workshop, capsys, tmp_path):
     assert "goal 0: block on table" in out
     assert "grasp: faces 0/3; jaws closed to 30.0 mm" in out and "meets a wall" not in out
     assert "motion: 8.00 s in 8 steps, regrasps: 0" in out
-    assert "0.50 s CPU (grasp 0.20, approach 0.30)" in out and "least clearance: 3.10 mm" in out
+    assert "500 ms CPU (grasp 200.0, approach 300.0)" in out and "least clearance: 3.10 mm" in out
     assert "plan: cell.plan.json" in out
     assert Plan.load(tmp_path / "cell.plan.json").joints == ("a",)
     assert (workshop.options.seed, workshop.options.deadline) == (0, None)

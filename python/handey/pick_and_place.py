@@ -29,7 +29,7 @@ __all__ = [
 # Choice: the pads are certified up to this far from the faces, each side; the last stretch is the
 # contact itself [m].
 CLOSING_GAP = 3e-4
-# Choice: a part that touches more than what it stands on is tried in this many level directions, this far [m].
+# Choice: level directions, and how far each is tried [m], for a part that also touches walls.
 DIRECTIONS_AWAY, STEP_AWAY = 16, 1.5e-3
 
 
@@ -273,7 +273,7 @@ def _lift(
 
 
 def _away(work: Workspace, cell: _core.Cell) -> np.ndarray | None:
-    """The middle of the level directions that, with a lift, leave all that the part touches where it stands."""
+    """The middle of the level directions in which a lift leaves all that the part touches."""
     part = work.scene.part
     X_WP = cell.parts[part].X_WB
     leaving = []
@@ -289,7 +289,7 @@ def _away(work: Workspace, cell: _core.Cell) -> np.ndarray | None:
 
 
 def _directions(back: np.ndarray, away: np.ndarray | None) -> list[np.ndarray]:
-    """Straight up first, then up and away from a wall, then up and back, then back along the hand."""
+    """Straight up, then up and away from a wall, then up and back, then back along the hand."""
     up = np.array([0.0, 0.0, 1.0])
     from_wall = [] if away is None else [up + share * away for share in (0.3, 1.0)]
     slanted = [up + share * back for share in (0.3, 1.0)]

@@ -28,34 +28,11 @@ from handey.pick_and_place import (
 )
 from handey.placement import examine_standing, stands_stably
 from handey.plan import Plan, Step
+from handey.plan_options import PlanOptions
 from handey.report import Attempt, GoalReport, Report, StageClock
 from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
-
-
-@dataclass(frozen=True)
-class PlanOptions:
-    """What bounds and steers planning.
-
-    Attributes:
-        seed: fixes every random choice.
-        deadline: seconds of wall-clock time after which planning stops between two attempts; None
-            for no bound.
-        ranking: options of steps 1 to 3.
-        legality: options of the test of grasp poses at both ends.
-        direct: options and budgets of one attempt.
-        poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
-        sampling_rounds: iterations of the gross planner in each pass over the grasps.
-    """
-
-    seed: int = 0
-    deadline: float | None = None
-    ranking: _core.RankingOptions = field(default_factory=_core.RankingOptions)
-    legality: _core.LegalityOptions = field(default_factory=_core.LegalityOptions)
-    direct: DirectOptions = field(default_factory=DirectOptions)
-    poses_per_round: int = 4
-    sampling_rounds: tuple[int, ...] = (400, 4000)
 
 
 @dataclass(frozen=True)
@@ -257,7 +234,9 @@ def _unstable(work: Workspace) -> str:
     name = scene.cell.parts[scene.part].name
     carried = _carried_by(work)
     if carried:
-        return f"{', '.join(carried)} would fall: standing on {name}, which is to be moved"
+        verb = "it stands" if len(carried) == 1 else "they stand"
+        reason = f"would fall: {verb} on {name}, which is to be moved; an earlier goal may clear it"
+        return f"{', '.join(carried)} {reason}"
     # With `order: any` its goal may be on a part that is not there yet.
     standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal)
     return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
@@ -323,7 +302,8 @@ def _report_ranking(
     report.add("unobstructed", len(ranking.ranked))
     if not ranking.faces:
         least = 1e6 * options.features.least_face_area
-        report.reasons.append(f"the part has no flat face of {least:g} mm2 or more for a pad to lie on")
+        reason = f"the part has no flat face of {least:g} mm2 or more for a pad to lie on"
+        report.reasons.append(reason)
     elif not spanned and not ranking.rejected:
         report.reasons.append("no two faces of the part are parallel and face away from each other")
     rejected: dict[str, list[str]] = {}

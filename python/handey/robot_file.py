@@ -120,7 +120,8 @@ def build_robot(entry: RobotEntry) -> tuple[_core.Robot, list[str]]:
         loaded = _core.load_robot(os.fspath(entry.urdf), description)
     except InvalidInput as error:
         raise InvalidInput([_in_file(fault, entry) for fault in error.faults]) from None
-    return loaded.robot, [f"{entry.urdf}: {_within(entry.urdf.name, warning)}" for warning in loaded.warnings]
+    said = [_within(entry.urdf.name, warning) for warning in loaded.warnings]
+    return loaded.robot, [f"{entry.urdf}: {warning}" for warning in said]
 
 
 def _in_file(fault: Fault, entry: RobotEntry) -> Fault:

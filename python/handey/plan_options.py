@@ -1,0 +1,75 @@
+"""What bounds and steers planning, checked once where it is said.
+
+A budget that is no number would be found late and far from its cause, and one of zero grasps would
+never end.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from dataclasses import dataclass, field
+
+from handey import _core
+from handey.errors import Fault, InvalidInput
+from handey.pick_and_place import DirectOptions
+
+__all__ = ["PlanOptions"]
+
+GREATEST_SEED = 2**64 - 1
+MOST_ITERATIONS = 2**31 - 1
+
+
+@dataclass(frozen=True)
+class PlanOptions:
+    """What bounds and steers planning.
+
+    Attributes:
+        seed: fixes every random choice; 0 to 2^64 - 1.
+        deadline: seconds of wall-clock time after which planning stops between two attempts; None
+            for no bound.
+        ranking: options of steps 1 to 3.
+        legality: options of the test of grasp poses at both ends.
+        direct: options and budgets of one attempt.
+        poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
+        sampling_rounds: iterations of the gross planner in each pass over the grasps.
+
+    Raises:
+        TypeError: if a number is none.
+        InvalidInput: E_RANGE, if one is out of its range.
+    """
+
+    seed: int = 0
+    deadline: float | None = None
+    ranking: _core.RankingOptions = field(default_factory=_core.RankingOptions)
+    legality: _core.LegalityOptions = field(default_factory=_core.LegalityOptions)
+    direct: DirectOptions = field(default_factory=DirectOptions)
+    poses_per_round: int = 4
+    sampling_rounds: tuple[int, ...] = (400, 4000)
+
+    def __post_init__(self) -> None:
+        _require_whole("seed", self.seed, 0, GREATEST_SEED)
+        _require_whole("poses_per_round", self.poses_per_round, 1, MOST_ITERATIONS)
+        if not self.sampling_rounds:
+            raise _out_of_range("sampling_rounds", "expected at least one number, found none")
+        for iterations in self.sampling_rounds:
+            _require_whole("sampling_rounds", iterations, 1, MOST_ITERATIONS)
+        if self.deadline is None:
+            return
+        if isinstance(self.deadline, bool) or not isinstance(self.deadline, numbers.Real):
+            expected = "expected a number of seconds or None"
+            raise TypeError(f"deadline: {expected}, found {self.deadline!r}")
+        if not (math.isfinite(self.deadline) and self.deadline > 0):
+            expected = "expected a finite number of seconds greater than 0"
+            raise _out_of_range("deadline", f"{expected}, found {self.deadline}")
+
+
+def _require_whole(name: str, value: object, least: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name}: expected a whole number, found {value!r}")
+    if not least <= int(value) <= most:
+        raise _out_of_range(name, f"expected a whole number from {least} to {most}, found {value}")
+
+
+def _out_of_range(name: str, message: str) -> InvalidInput:
+    return InvalidInput(Fault("E_RANGE", name, message))
