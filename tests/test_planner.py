@@ -98,6 +98,26 @@ def test_what_stands_on_a_part_is_moved_first_or_named(tmp_path: Path) -> None:
     assert result.plan.steps[0].goal == 1
 
 
+def test_part_is_not_lifted_through_a_thin_lip(tmp_path: Path) -> None:
+    """At the ends of the lift's first edge the flange is below the lip, and above it."""
+    thick = 0.00052
+    flange = {"box": [0.08, 0.08, thick], "pose": {"xyz": [0, 0, thick / 2]}}
+    knob = {"box": [0.03, 0.03, 0.05], "pose": {"xyz": [0, 0, 0.025]}}
+    plate = {"shapes": [flange, knob], "pose": {"xyz": [0.5, 0.15, 0]}}
+    above = {"xyz": [0.545, 0.15, 1.5 * thick + 0.0002]}
+    lip = {"box": [0.02, 0.08, thick], "pose": above}
+    path = write_cell(
+        tmp_path,
+        fixtures={"table": random_cells.TABLE, "lip": lip},
+        parts={"plate": plate},
+        task=[{"place": "plate", "at": {"xyz": [0.5, -0.15, 0]}}],
+    )
+    result = handey.plan(path)
+    assert result.plan is None or handey.check(path, result.plan).ok
+    attempts = result.report.goals[0].attempts
+    assert any("would pass through lip" in attempt.reason for attempt in attempts)
+
+
 def test_goals_in_any_order_are_built_from_below(tmp_path: Path) -> None:
     upper = {"place": "upper", "at": {"xyz": [0.5, -0.15, 0.075]}}
     parts = {"block": block_at(0.15), "upper": block_at(0.3)}

@@ -1,7 +1,7 @@
 // The hand's straight line out of contact, pose by pose through inverse kinematics. The first,
 // short edge may touch what was touched before, so it is looked at for what the certificate cannot
-// see there: whether any point of hand or part moves back, or the hand turns. From its end on
-// nothing may touch.
+// see there: whether any point of hand or part moves back, the hand turns, or an overlap grows.
+// From its end on nothing may touch.
 #include "handey/approach/retreat.hpp"
 
 #include <algorithm>
@@ -21,6 +21,10 @@ namespace {
 constexpr double kMostBack = 2e-5;  // [m]
 constexpr double kMostTurn = 1e-4;  // [rad]
 constexpr int kSamples = 8;         // along the first edge
+// Choice: an overlap may grow by a fifth of the contact tolerance, samples of the first edge are
+// nearer to each other than that.
+constexpr double kMostDeeper = 1e-4;  // [m]
+constexpr int kOverlapSamples = 20;   // along the first edge
 
 void require_range(bool good, const std::string& message) {
   if (!good) throw InvalidInput("E_RANGE", "plan_retreat", message);
@@ -105,6 +109,21 @@ std::string deepening(const Cell& cell, const Configuration& a, const Configurat
   return "";
 }
 
+/// Empty if no overlap grows along the edge: a thin lip can be behind the part at the edge's end.
+std::string tunnelling(CollisionChecker& clear, const Configuration& a, const Configuration& b) {
+  double deepest = 0.0;
+  for (int sample = 0; sample < kOverlapSamples; ++sample) {
+    const double share = static_cast<double>(sample) / kOverlapSamples;
+    const Configuration between{a.q + share * (b.q - a.q),
+                                a.opening + share * (b.opening - a.opening)};
+    for (const Hit& hit : robot_overlaps(clear, between, deepest + kMostDeeper)) {
+      if (sample > 0) return hit.a + " would pass through " + hit.b;
+      deepest = std::max(deepest, -hit.distance);
+    }
+  }
+  return "";
+}
+
 /// The first edge, out of contact; empty if good.
 std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
                           const Configuration& a, const Configuration& b,
@@ -113,6 +132,8 @@ std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
   if (!edge.is_free()) return describe(edge.hit);
   const std::string deeper = deepening(in_contact.cell(), a, b, direction);
   if (!deeper.empty()) return deeper;
+  const std::string through = tunnelling(clear, a, b);
+  if (!through.empty()) return through;
   const std::optional<Hit> hit = clear.find_hit(b, options.certificate.clearance);
   return hit ? hit->a + " does not come clear of " + hit->b : "";
 }
