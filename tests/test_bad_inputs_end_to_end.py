@@ -514,3 +514,20 @@ def test_a_cell_with_a_wrong_depth_map_is_refused_in_one_line(array, entry, word
     put(bench / "cell.yaml", CELL + f"depth_maps: {{map: {{{entry}}}}}\n")
     (line,) = complaints(bench, capsys)
     assert line.startswith("cell.yaml: depth_maps.map.") and words in line
+
+
+# The output
+
+
+def test_an_input_that_the_cell_leads_to_is_not_overwritten(bench, capsys):
+    for name in ("puma560.urdf", "robot.yaml", "meshes/link6_flange.obj"):
+        content = (bench / name).read_bytes()
+        assert cli.main(["plan", "cell.yaml", "-o", name]) == 2
+        assert capsys.readouterr().err.startswith(f"handey: {name}: exists, and ends with ")
+        assert (bench / name).read_bytes() == content
+
+
+def test_a_folder_is_no_cell(bench, capsys):
+    for name in (".", "meshes"):
+        assert cli.main(["plan", name]) == 2
+        assert capsys.readouterr().err == f"handey: {name}: is not a regular file\n"

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["check_command", "plan_command", "view_command", "within"]
 
 OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3, 70, 124, 130
+INPUT_KINDS = (".yaml", ".yml", ".urdf", ".stl", ".obj", ".ply", ".npy", ".png")
 TIME_TO_TELL = 0.25  # Choice: the planner stops this long before the deadline and tells why [s]
 Result = TypeVar("Result")
 
@@ -42,7 +43,7 @@ def plan_command(options: argparse.Namespace) -> int:
     from handey.output import require_writable
 
     start = time.monotonic()
-    output = Path(options.output or Path(options.cell).with_suffix(".plan.json").name)
+    output = Path(options.output or f"{Path(options.cell).stem}.plan.json")
     require_writable(output)
     _keep_inputs([options.cell], output)
     try:
@@ -150,7 +151,7 @@ def view_command(options: argparse.Namespace) -> int:
     """Writes a page that shows a cell, or plays a plan in it."""
     from handey.output import require_writable
 
-    output = Path(options.output or Path(options.cell).with_suffix(".html").name)
+    output = Path(options.output or f"{Path(options.cell).stem}.html")
     require_writable(output)
     _keep_inputs([options.cell, options.plan], output)
     from handey.cell_file import load_cell
@@ -172,7 +173,12 @@ def view_command(options: argparse.Namespace) -> int:
 
 
 def _keep_inputs(inputs: Sequence[str | None], output: Path) -> None:
-    """The output must not replace what is read."""
+    """The output must not replace what is read, or may be read by way of it."""
+    if output.suffix.lower() in INPUT_KINDS and output.exists():
+        message = (
+            f"exists, and ends with {output.suffix} as an input does; the output needs another name"
+        )
+        raise InvalidInput(Fault("E_OUTPUT", "", message, str(output)))
     for name in inputs:
         if name is not None and os.path.realpath(name) == os.path.realpath(output):
             raise InvalidInput(

@@ -307,8 +307,8 @@ def _report_ranking(
     elif not spanned and not ranking.rejected:
         report.reasons.append("no two faces of the part are parallel and face away from each other")
     rejected: dict[str, list[str]] = {}
-    for pair in ranking.rejected:
-        rejected.setdefault(pair.reason, []).append(f"{pair.face_a}/{pair.face_b}")
+    for fallen in ranking.rejected:
+        rejected.setdefault(fallen.reason, []).append(f"{fallen.face_a}/{fallen.face_b}")
     report.reasons += [f"faces {', '.join(pairs)}: {why}" for why, pairs in rejected.items()]
     for pair in ranking.obstructed:
         name = f"faces {pair.pair.face_a}/{pair.pair.face_b}"
