@@ -228,7 +228,7 @@ def test_finds_an_arm_that_moves_while_the_hand_closes(cell, plan):
 
 @pytest.mark.parametrize(("action", "row"), [("grasp", -1), ("release", 0)])
 def test_finds_fingers_that_do_not_close_or_open(cell, plan, action, row):
-    """The opening changes outside of the step that is there for it: the part is pushed or dragged."""
+    """The opening changes outside of its own step: the part is pushed or dragged."""
     i = step_of(plan, action)
     step = plan["steps"][i]
     at_rest = step["opening"][row]

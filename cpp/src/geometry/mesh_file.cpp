@@ -15,6 +15,7 @@
 #include "mesh_cleaning.hpp"
 #include "mesh_edges.hpp"
 #include "mesh_formats.hpp"
+#include "self_crossing.hpp"
 
 namespace handey {
 namespace {
@@ -178,30 +179,27 @@ void require_plausible_size(const LoadedMesh& loaded, const MeshFileOptions& opt
   fail("E_UNITS", path, text.str());
 }
 
-// Edges with one triangle gape; other odd edges have a triangle too many.
+// Edges with one triangle gape; edges of more than two have a triangle too many.
 void require_closed(const LoadedMesh& loaded, const std::string& path) {
   int gaping = 0;
   int crowded = 0;
   for_each_edge(sorted_half_edges(loaded.mesh), [&](std::size_t begin, std::size_t end) {
     if (end - begin == 1) ++gaping;
-    if (end - begin > 2 && (end - begin) % 2 != 0) ++crowded;
+    if (end - begin > 2) ++crowded;
   });
-  std::vector<Fault> faults;
   if (gaping > 0) {
-    faults.push_back({"E_NOT_CLOSED", path,
-                      "found " + std::to_string(gaping) +
-                          " edges with a triangle on one side only, expected a closed surface"});
+    fail("E_NOT_CLOSED", path,
+         "found " + std::to_string(gaping) +
+             " edges with a triangle on one side only, expected a closed surface");
   }
-  if (crowded > 0) {
-    faults.push_back(
-        {"E_NOT_MANIFOLD", path,
-         "found " + std::to_string(crowded) +
-             " edges that an odd number of more than two triangles share, expected two"});
-  }
-  if (!faults.empty()) throw InvalidInput(std::move(faults));
   const double size = (loaded.surface.upper - loaded.surface.lower).maxCoeff();
   if (std::abs(loaded.surface.volume) <= kFlatVolume * size * size * size) {
     fail("E_MESH_DEGENERATE", path, "found a surface that encloses no volume, expected a solid");
+  }
+  if (crowded > 0) {
+    fail("E_NOT_MANIFOLD", path,
+         "found " + std::to_string(crowded) +
+             " edges that more than two triangles share, expected two");
   }
 }
 
@@ -233,6 +231,9 @@ void add_warnings(LoadedMesh& loaded) {
   if (!surface.manifold) {
     loaded.warnings.push_back(std::to_string(surface.overfull_edges) +
                               " edges have more than two triangles");
+  }
+  if (surface.closed && crosses_itself(loaded.mesh)) {
+    loaded.warnings.push_back("the surface crosses itself: its pieces are taken as one solid");
   }
   if ((surface.upper - surface.lower).maxCoeff() < kSmallestSize) {
     loaded.warnings.push_back("the mesh is smaller than 0.1 mm; is its scale right?");

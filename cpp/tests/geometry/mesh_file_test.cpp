@@ -312,7 +312,7 @@ TEST_F(MeshFile, InsideOutSolidsAreFlipped) {  // 68
 
 TEST_F(MeshFile, AThirdTriangleAtAnEdgeIsNotManifold) {  // 69
   EXPECT_EQ(code("a.obj", obj(cube()) + "f 1 3 4\n", true), "E_NOT_MANIFOLD");
-  // Two cubes that share an edge are a solid all the same.
+  // Two cubes that share an edge: a part must be one solid, a fixture need not.
   TriangleMesh two = cube();
   for (const Eigen::Vector3d& vertex : cube().vertices) {
     two.vertices.push_back(vertex + Eigen::Vector3d(0.1, 0.1, 0.0));
@@ -321,9 +321,28 @@ TEST_F(MeshFile, AThirdTriangleAtAnEdgeIsNotManifold) {  // 69
     two.triangles.push_back(t + Eigen::Vector3i::Constant(8));
   MeshFileOptions closed;
   closed.must_be_closed = true;
-  const LoadedMesh loaded = load_mesh(write("b.stl", binary_stl(two)), closed);
+  EXPECT_EQ(code("b.stl", binary_stl(two), true), "E_NOT_MANIFOLD");
+  const LoadedMesh loaded = load_mesh(write("b.stl", binary_stl(two)));
   EXPECT_EQ(loaded.surface.overfull_edges, 1);
   EXPECT_FALSE(loaded.warnings.empty());
+}
+
+TEST_F(MeshFile, ASurfaceThatCrossesItselfGetsAWarning) {  // 70
+  TriangleMesh two = cube();
+  for (const Eigen::Vector3d& vertex : cube().vertices) {
+    two.vertices.push_back(vertex + Eigen::Vector3d(0.04, 0.03, 0.05));
+  }
+  for (const Eigen::Vector3i& t : cube().triangles)
+    two.triangles.push_back(t + Eigen::Vector3i::Constant(8));
+  MeshFileOptions closed;
+  closed.must_be_closed = true;
+  const LoadedMesh crossing = load_mesh(write("a.stl", binary_stl(two)), closed);
+  ASSERT_EQ(crossing.warnings.size(), 1u);
+  EXPECT_NE(crossing.warnings[0].find("crosses itself"), std::string::npos);
+  EXPECT_TRUE(load_mesh(write("b.stl", binary_stl(cube())), closed).warnings.empty());
+  // Apart, the two do not cross.
+  for (std::size_t i = 8; i < 16; ++i) two.vertices[i].x() += 0.2;
+  EXPECT_TRUE(load_mesh(write("c.stl", binary_stl(two)), closed).warnings.empty());
 }
 
 TEST_F(MeshFile, ObjIndicesCountFromOneOrBack) {  // 71, 72, 73, 76

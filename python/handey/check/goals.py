@@ -59,8 +59,8 @@ def check_goals(
         )
     for old, step in zip(plan.steps, plan.steps[1:], strict=False):
         if step.goal != old.goal and step.action not in ("transit", "approach"):
-            text = f"serves goal {step.goal}, but the {old.action} before it goal {old.goal}"
-            report.add("goal", text, step.index, float(step.time[0]), step.action)
+            change = f"serves goal {step.goal}, but the {old.action} before it goal {old.goal}"
+            report.add("goal", change, step.index, float(step.time[0]), step.action)
     if cell.given_order and served != sorted(served):
         report.add("goal", f"goals are served in the order {served}; the cell gives the order")
     if not cell.given_order:
