@@ -136,6 +136,14 @@ def test_impossible_cell_gets_a_reason_and_no_plan(path: Path) -> None:
     assert result.report.reasons
 
 
+def test_infeasible_is_said_only_where_it_is_proved() -> None:
+    verdicts = {
+        path.stem: handey.plan(handey.load_cell(path)).report.verdict for path in IMPOSSIBLE
+    }
+    proved = [cell for cell, verdict in verdicts.items() if verdict == "infeasible"]
+    assert proved == ["impossible_too_wide"]
+
+
 @pytest.mark.parametrize("path", BAD, ids=name)
 def test_bad_cell_is_refused(path: Path) -> None:
     with pytest.raises(handey.InvalidInput) as caught:

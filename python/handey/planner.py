@@ -18,6 +18,7 @@ import numpy as np
 from handey import _core
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
+from handey.jaws import is_wider_than_jaws
 from handey.pick_and_place import (
     Carry,
     DirectOptions,
@@ -200,6 +201,8 @@ def _plan_goal(
     with work.clock("rank grasps"):
         ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
     _report_ranking(report, ranking, options.ranking)
+    part = scene.cell.parts[scene.part]
+    report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     reaches: list[tuple[str, Reach]] = []
     direct = _with_budget(options, options.sampling_rounds[0])
     for pair, aim in _grasps(work, ranking, options, report):
@@ -316,7 +319,6 @@ def _report_ranking(
         report.reasons.append(
             f"{name}: {blocked:.0f} % obstructed by {', '.join(pair.obstructing)}"
         )
-    report.exhausted = spanned == 0
 
 
 def _describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:

@@ -63,7 +63,7 @@ class GoalReport:
         attempts: the grasps that were tried, in order.
         grasp: the grasp chosen, in words; empty without one.
         planners: which planner gave each gross motion.
-        exhausted: no grasp of the kinds that handey knows is left untried.
+        exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
     """
 
     goal: int
@@ -114,8 +114,8 @@ class Report:
     """How the planning of a task went.
 
     Attributes:
-        verdict: "plan"; "infeasible" where the grasps are exhausted; "unknown" where a budget ran
-            out.
+        verdict: "plan"; "infeasible" where it is proved that there is no grasp; "unknown" where
+            all that was tried failed.
         goals: one report per goal of the task.
         stages: CPU seconds by stage.
         cpu_s: CPU seconds of planning, without reading files and without the check.
