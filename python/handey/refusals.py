@@ -104,6 +104,13 @@ def _overlap_messages(
             continue
         other = overlap.name_b if overlap.name_a == name else overlap.name_a
         messages.append(f"'{name}' overlaps '{other}' at its goal by {_deep(overlap.depth)}")
+    # The robot's base stands still too; its other bodies move out of the way.
+    base = cell.robot.bodies[0].name
+    checker = _core.CollisionChecker(model, cell)
+    for hit in _core.robot_overlaps(checker, cell.start, CONTACT_TOLERANCE):
+        if (hit.a, hit.b) == (base, name):
+            depth = _deep(-hit.distance)
+            messages.append(f"'{name}' overlaps '{base}' of the robot at its goal by {depth}")
     return messages
 
 
