@@ -42,7 +42,7 @@ def test_the_puma_model_says_what_the_robot_file_says(puma):
     assert (puma.gripper.min_opening, puma.gripper.max_opening) == (0.0, 0.1)
     assert (puma.gripper.pad_width, puma.gripper.pad_length) == (0.02, 0.03)
     velocities = np.degrees([joint.limit.velocity for joint in puma.joints])
-    assert np.allclose(velocities, [100, 95, 130, 150, 130, 110])
+    assert np.allclose(velocities, [100, 95, 100, 150, 130, 110])
     assert [joint.limit.acceleration for joint in puma.joints] == [5.0] * 6
     assert puma.bodies[6].links == ["link6", "gripper"]
 
