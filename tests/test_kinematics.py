@@ -204,7 +204,7 @@ def test_arrays_are_copies(puma):
 
 def test_a_wrong_urdf_lists_every_fault_with_its_line(tmp_path):
     text = (PUMA / "puma560.urdf").read_text()
-    text = text.replace('velocity="1.7453292519943295"', 'velocity="0"')
+    text = text.replace('velocity="1.7453292519943295" effort="100"', 'velocity="0" effort="100"')
     text = text.replace('<axis xyz="0 -1 0"/>', '<axis xyz="0 nan 0"/>')
     (tmp_path / "puma560.urdf").write_text(text)
     (tmp_path / "robot.yaml").write_text((PUMA / "robot.yaml").read_text())
