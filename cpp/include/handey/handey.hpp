@@ -21,8 +21,10 @@
 #include "handey/world/body.hpp"
 #include "handey/world/cell.hpp"
 // collision
+#include "handey/collision/box_certificate.hpp"
 #include "handey/collision/certificate.hpp"
 #include "handey/collision/checker.hpp"
+#include "handey/collision/scene.hpp"
 // grasp
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/features.hpp"
@@ -35,6 +37,12 @@
 #include "handey/approach/grid.hpp"
 #include "handey/approach/quasipotential.hpp"
 #include "handey/approach/retreat.hpp"
+// cspace
+#include "handey/cspace/arm_table.hpp"
+#include "handey/cspace/cross_section.hpp"
+#include "handey/cspace/lattice.hpp"
+#include "handey/cspace/planar_arm.hpp"
+#include "handey/cspace/slice.hpp"
 // motion
 #include "handey/motion/gross.hpp"
 #include "handey/motion/sampling.hpp"

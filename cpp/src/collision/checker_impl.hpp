@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "handey/collision/box_certificate.hpp"
 #include "model.hpp"
 
 namespace handey {
@@ -46,12 +47,7 @@ struct ObstaclePiece {
   Pose X_RO = Pose::Identity();  ///< its box in R
 };
 
-/// Two pieces that are to be kept apart: of a mover, and of another mover or an obstacle.
-struct PiecePair {
-  int mover = 0, piece = 0;
-  int other = 0,
-      other_piece = 0;  ///< other: a mover, or -1 and other_piece is an index of obstacle pieces
-};
+using handey::PiecePair;
 
 }  // namespace collision
 
