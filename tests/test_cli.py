@@ -23,6 +23,7 @@ import handey.cell_file
 from handey import cli
 from handey.errors import Fault, InvalidInput
 from handey.plan import ACTIONS, Plan, Step
+from handey.report import GrossMotion, Search
 from handey.task import PlaceOn
 
 
@@ -36,13 +37,20 @@ class StandInReport:
     regrasps: int = 0
     deadline_passed: bool = False
     stages: dict = field(default_factory=lambda: {"grasp": 0.2, "approach": 0.3})
+    gross_motions: list = field(
+        default_factory=lambda: [
+            GrossMotion(0, 0, "transit", Search("slices", 0.0012)),
+            GrossMotion(4, 0, "transfer", Search("RRT-Connect", 0.034, "no free cell at the goal")),
+        ]
+    )
 
     def __post_init__(self):
         tried = types.SimpleNamespace(grasp="faces 1/2", stage="approach", reason="meets a wall")
         self.goals = [types.SimpleNamespace(goal=0, grasp="faces 0/3", attempts=[tried])]
 
     def as_dict(self):
-        return {"verdict": self.verdict, "attempts": 3}
+        motions = [motion.as_dict() for motion in self.gross_motions]
+        return {"verdict": self.verdict, "attempts": 3, "gross_motions": motions}
 
 
 @dataclass
@@ -140,6 +148,27 @@ def test_json_is_one_object_with_the_figures_asked_for(workshop, capsys):
     assert (summary["cpu_s"], summary["wall_s"], summary["duration_s"]) == (0.5, 0.6, 8.0)
     assert summary["regrasps"] == 0 and summary["stages"] == {"grasp": 0.2, "approach": 0.3}
     assert summary["attempts"] == 3 and summary["output"] == "cell.plan.json"
+
+
+def test_planner_and_time_of_each_gross_motion_are_told(workshop, capsys):
+    assert cli.main(["plan", "cell.yaml"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    told = "    gross motions: step 0 transit slices 1.2 ms, step 4 transfer RRT-Connect 34.0 ms"
+    assert lines[lines.index(told) + 1] == (
+        "    step 4: not through slices: no free cell at the goal"
+    )
+    assert sum("not through slices" in line for line in lines) == 1
+    assert cli.main(["plan", "cell.yaml", "--json"]) == 0
+    first, second = json.loads(capsys.readouterr().out)["gross_motions"]
+    assert first == {
+        "step": 0,
+        "goal": 0,
+        "action": "transit",
+        "planner": "slices",
+        "cpu_s": 0.0012,
+        "fallback_reason": "",
+    }
+    assert second["fallback_reason"] == "no free cell at the goal"
 
 
 @pytest.mark.parametrize("verdict", ["infeasible", "unknown"])

@@ -221,6 +221,25 @@ def test_the_summary_is_one_json_object(tmp_path: Path) -> None:
     assert sum(summary["stages"].values()) <= summary["cpu_s"] * 1.01
 
 
+@pytest.mark.parametrize("cell", ["demo", "two_goals", "between_walls"])
+def test_every_gross_motion_of_the_plan_is_reported_with_planner_and_time(cell: str) -> None:
+    result = handey.plan(handey.load_cell(CELLS / f"{cell}.yaml"))
+    assert result.plan is not None
+    steps = result.plan.steps
+    told = result.plan.report["gross_motions"]
+    gross = [i for i, step in enumerate(steps) if step.action in ("transit", "transfer")]
+    assert gross and [motion["step"] for motion in told] == gross
+    for motion in told:
+        step = steps[motion["step"]]
+        assert (motion["action"], motion["goal"]) == (step.action, step.goal)
+        assert motion["planner"] in ("straight", "slices", "RRT-Connect")
+        assert 0 <= motion["cpu_s"] <= result.report.cpu_s
+        if motion["planner"] in ("straight", "slices"):
+            assert motion["fallback_reason"] == ""
+    spent = sum(motion["cpu_s"] for motion in told)
+    assert spent <= sum(result.report.stages[s] for s in ("transit", "transfer", "home"))
+
+
 def test_random_direct_cells_are_planned_validly_and_repeatably(tmp_path: Path) -> None:
     cells = random_cells.direct_cells(
         seed=3, count=12, parts=random_cells.own_parts(), folder=tmp_path

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
+from handey.gross_motion import Search, go, open_and_go
 from handey.report import StageClock
 
 __all__ = [
@@ -73,11 +74,19 @@ class Workspace:
 
 @dataclass(frozen=True)
 class Motion:
-    """A certified polyline that serves one action of the plan."""
+    """A certified polyline that serves one action of the plan.
+
+    Attributes:
+        action: the plan's.
+        path: waypoints.
+        held: the part is in the hand.
+        search: how it was found, of gross motions.
+    """
 
     action: str
     path: list[_core.Configuration]
     held: bool = False
+    search: Search | None = None
 
 
 @dataclass(frozen=True)
@@ -98,7 +107,6 @@ class Carry:
         motions: the whole of it when done.
         X_HP: the part in the grasp frame, shape (4, 4).
         end: where the arm is afterwards.
-        planners: which planner gave each gross motion.
     """
 
     stage: str
@@ -107,7 +115,6 @@ class Carry:
     X_HP: np.ndarray = field(default_factory=lambda: np.eye(4))
     grasp: _core.GraspPose | None = None
     end: _core.Configuration | None = None
-    planners: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -191,33 +198,31 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
         A `Carry`, "done" or with the stage at which it fell.
     """
     scene, grasp = work.scene, reach.grasp
-    planners: dict[str, str] = {}
     with work.clock("transit"):
         checker = _core.CollisionChecker(work.model, scene.cell)
-        transit, reason = _open_and_go(
-            checker, work.current, [reach.approach[0]], options, planners, "transit"
+        transit = open_and_go(
+            checker, work.current, reach.approach[0], options.gross, options.approach.certificate
         )
     if not transit:
-        return Carry("transit", reason)
+        return Carry("transit", transit.reason)
 
     with work.clock("transfer"):
         held = scene.cell.with_held(scene.part, reach.X_HP)
         checker = _core.CollisionChecker(work.model, held)
         goals = [placing.deposit[0] for placing in reach.places]
-        transfer = _core.plan_gross_motion(checker, reach.depart[-1], goals, options.gross)
+        transfer = go(checker, reach.depart[-1], goals, options.gross)
     if not transfer:
         return Carry("transfer", transfer.reason)
-    planners["transfer"] = transfer.planner
     placing = reach.places[transfer.goal]
 
     q_pick, q_place = reach.approach[-1].q, placing.deposit[-1].q
     opened = placing.withdraw[0].opening
     motions = [
-        Motion("transit", transit),
+        Motion("transit", transit.path, search=transit.search),
         Motion("approach", reach.approach),
         Motion("grasp", [_at(q_pick, grasp.opening), _at(q_pick, grasp.width)]),
         Motion("depart", reach.depart, held=True),
-        Motion("transfer", list(transfer.path), held=True),
+        Motion("transfer", transfer.path, held=True, search=transfer.search),
         Motion("deposit", placing.deposit, held=True),
         Motion("release", [_at(q_place, grasp.width), _at(q_place, opened)]),
         Motion("withdraw", placing.withdraw),
@@ -227,16 +232,13 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
         with work.clock("home"):
             goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
             checker = _core.CollisionChecker(work.model, goal_cell)
-            home = _core.plan_gross_motion(
-                checker, end, [_at(work.home, end.opening)], options.gross
-            )
+            home = go(checker, end, [_at(work.home, end.opening)], options.gross)
         if not home:
             return Carry("home", home.reason)
-        planners["home"] = home.planner
-        motions.append(Motion("transit", list(home.path)))
+        motions.append(Motion("transit", home.path, search=home.search))
         end = home.path[-1]
     motions = [m for m in motions if m.action not in ("transit", "transfer") or len(m.path) > 1]
-    return Carry("done", "", motions, reach.X_HP, grasp, end, planners)
+    return Carry("done", "", motions, reach.X_HP, grasp, end)
 
 
 def _nearest_first(work: Workspace, solutions: list[np.ndarray], q: np.ndarray) -> list[np.ndarray]:
@@ -350,33 +352,3 @@ def _turned(hand: np.ndarray, angle: float) -> np.ndarray:
     """The direction back along the hand, turned in the grasp plane."""
     direction: np.ndarray = np.sin(angle) * hand[:3, 0] - np.cos(angle) * hand[:3, 2]
     return direction
-
-
-def _open_and_go(
-    checker: _core.CollisionChecker,
-    start: _core.Configuration,
-    goals: list[_core.Configuration],
-    options: DirectOptions,
-    planners: dict[str, str],
-    name: str,
-) -> tuple[list[_core.Configuration], str]:
-    """A gross motion with a change of opening before it where there is room, else after it."""
-    wanted = goals[0].opening
-    certificate = options.approach.certificate
-    opened = _at(start.q, wanted)
-    if start.opening == wanted or _core.certify_edge(checker, start, opened, certificate).is_free:
-        result = _core.plan_gross_motion(checker, opened, goals, options.gross)
-        prefix = [] if start.opening == wanted else [start]
-        if result:
-            planners[name] = result.planner
-            return [*prefix, *result.path], ""
-        return [], result.reason
-    closed = [_at(goal.q, start.opening) for goal in goals]
-    result = _core.plan_gross_motion(checker, start, closed, options.gross)
-    if not result:
-        return [], result.reason
-    goal = goals[result.goal]
-    if not _core.certify_edge(checker, closed[result.goal], goal, certificate).is_free:
-        return [], "no room to open the fingers at either end"
-    planners[name] = result.planner
-    return [*result.path, goal], ""

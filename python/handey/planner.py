@@ -30,7 +30,7 @@ from handey.pick_and_place import (
 from handey.placement import examine_standing, stands_stably
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
-from handey.report import Attempt, GoalReport, Report, StageClock
+from handey.report import Attempt, GoalReport, GrossMotion, Report, StageClock
 from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
@@ -179,7 +179,7 @@ def _plan_goals(
             work = Workspace(model, scene, solver, progress.current, home, clock)
             carry = _plan_goal(work, options, goal_report, stop_at)
             if carry is not None:
-                _take_over(progress, goal, index, carry, clock)
+                _take_over(progress, goal, index, carry, clock, report.gross_motions)
                 done = index
                 break
         if done is None:
@@ -339,7 +339,7 @@ def _with_budget(options: PlanOptions, iterations: int) -> DirectOptions:
 
 
 def _planned(report: GoalReport, name: str, carry: Carry) -> Carry:
-    report.status, report.grasp, report.planners = "planned", name, carry.planners
+    report.status, report.grasp = "planned", name
     return carry
 
 
@@ -349,11 +349,19 @@ def _respect(stop_at: float | None) -> None:
 
 
 def _take_over(
-    progress: _Progress, goal: PlaceAt, index: int, carry: Carry, clock: StageClock
+    progress: _Progress,
+    goal: PlaceAt,
+    index: int,
+    carry: Carry,
+    clock: StageClock,
+    gross_motions: list[GrossMotion],
 ) -> None:
     """Append the motions of a carry as timed steps; bring the world to where it then is."""
     with clock("timing"):
         for motion in carry.motions:
+            if motion.search is not None:
+                found = GrossMotion(len(progress.steps), index, motion.action, motion.search)
+                gross_motions.append(found)
             timed = _core.time_path(progress.cell.robot, motion.path)
             progress.steps.append(
                 Step(

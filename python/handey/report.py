@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["Attempt", "GoalReport", "Report", "StageClock"]
+__all__ = ["Attempt", "GoalReport", "GrossMotion", "Report", "Search", "StageClock"]
 
 
 class StageClock:
@@ -50,6 +50,43 @@ class Attempt:
     reason: str = ""
 
 
+@dataclass(frozen=True)
+class Search:
+    """How one gross motion was found.
+
+    Attributes:
+        planner: "straight", "slices" or "RRT-Connect".
+        cpu_s: CPU seconds of the search that gave it; searches before it that failed not counted.
+        fallback_reason: why the slices did not give it; empty where they were not needed or did.
+    """
+
+    planner: str
+    cpu_s: float
+    fallback_reason: str = ""
+
+
+@dataclass(frozen=True)
+class GrossMotion:
+    """A gross motion of the plan.
+
+    Attributes:
+        step: index in the plan's steps.
+        goal: index in the task of the goal that it serves.
+        action: "transit" or "transfer".
+        search: how it was found.
+    """
+
+    step: int
+    goal: int
+    action: str
+    search: Search
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as JSON values."""
+        place = {"step": self.step, "goal": self.goal, "action": self.action}
+        return place | vars(self.search) | {"cpu_s": round(self.search.cpu_s, 6)}
+
+
 @dataclass
 class GoalReport:
     """How the planning of one goal went.
@@ -62,7 +99,6 @@ class GoalReport:
         reasons: why grasps fell before they were tried, most frequent first.
         attempts: the grasps that were tried, in order.
         grasp: the grasp chosen, in words; empty without one.
-        planners: which planner gave each gross motion.
         exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
     """
 
@@ -73,7 +109,6 @@ class GoalReport:
     reasons: list[str] = field(default_factory=list)
     attempts: list[Attempt] = field(default_factory=list)
     grasp: str = ""
-    planners: dict[str, str] = field(default_factory=dict)
     exhausted: bool = False
 
     def add(self, stage: str, count: int) -> None:
@@ -104,7 +139,6 @@ class GoalReport:
             "funnel": self.funnel,
             "reasons": self.reasons,
             "grasp": self.grasp,
-            "planners": self.planners,
             "attempts": [vars(attempt) for attempt in self.attempts],
         }
 
@@ -117,6 +151,7 @@ class Report:
         verdict: "plan"; "infeasible" where it is proved that there is no grasp; "unknown" where
             all that was tried failed.
         goals: one report per goal of the task.
+        gross_motions: of the plan, in the order of its steps.
         stages: CPU seconds by stage.
         cpu_s: CPU seconds of planning, without reading files and without the check.
         wall_s: the same by the wall clock.
@@ -128,6 +163,7 @@ class Report:
 
     verdict: str = "unknown"
     goals: list[GoalReport] = field(default_factory=list)
+    gross_motions: list[GrossMotion] = field(default_factory=list)
     stages: dict[str, float] = field(default_factory=dict)
     cpu_s: float = 0.0
     wall_s: float = 0.0
@@ -158,6 +194,7 @@ class Report:
             "stages": self.stages,
             "seed": self.seed,
             "deadline_passed": self.deadline_passed,
+            "gross_motions": [motion.as_dict() for motion in self.gross_motions],
             "goals": [goal.as_dict() for goal in self.goals],
             "reasons": self.reasons,
         }

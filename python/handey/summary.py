@@ -1,7 +1,7 @@
 """How planning went, in a few lines for people or as one JSON object.
 
-Goal by goal: the grasp, the steps, then the motion, the CPU time by stage and the least clearance
-that the check found.
+Goal by goal: the grasp, the steps, the planner and the CPU time of each gross motion; then the
+motion, the CPU time by stage and the least clearance that the check found.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from handey.check import CheckReport
     from handey.plan import Plan
     from handey.planner import PlanResult
+    from handey.report import GrossMotion
 
 __all__ = ["no_plan_lines", "plan_lines", "plan_summary"]
 
@@ -55,6 +56,7 @@ def plan_lines(
         lines.append("  every goal is already met: nothing to do")
     for index, goal in enumerate(cell.goals):
         lines += _goal_lines(plan, index, str(goal), report.goals[index].grasp)
+        lines += _gross_lines([m for m in report.gross_motions if m.goal == index])
     seconds = f"{plan.duration_s:.2f} s in {len(plan.steps)} steps"
     lines.append(f"  motion: {seconds}, regrasps: {report.regrasps}")
     stages = ", ".join(f"{stage} {1e3 * s:.1f}" for stage, s in report.stages.items())
@@ -76,6 +78,21 @@ def _goal_lines(plan: Plan, index: int, goal: str, grasp: str) -> list[str]:
         f"  goal {index}: {goal}",
         f"    grasp: {grasp}; {closed}" if grasp else f"    grasp: {closed}",
         f"    steps: {times}",
+    ]
+
+
+def _gross_lines(motions: list[GrossMotion]) -> list[str]:
+    """Which planner gave each gross motion, how quickly, and why it was not the slices."""
+    if not motions:
+        return []
+    found = [
+        f"step {m.step} {m.action} {m.search.planner} {1e3 * m.search.cpu_s:.1f} ms"
+        for m in motions
+    ]
+    fallbacks = [(m.step, m.search.fallback_reason) for m in motions if m.search.fallback_reason]
+    return [
+        f"    gross motions: {', '.join(found)}",
+        *(f"    step {step}: not through slices: {reason}" for step, reason in fallbacks),
     ]
 
 

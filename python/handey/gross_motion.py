@@ -1,0 +1,77 @@
+"""Gross motions with what is told of them: planner, CPU time, and why a fallback was needed.
+
+The core plans them at one opening; where the fingers must open on the way, they do so before the
+motion if there is room, else after it. Every motion that leaves here is certified by the core.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+from handey import _core
+from handey.report import Search
+
+__all__ = ["Journey", "Search", "go", "open_and_go"]
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A gross motion, or why there is none; true if found.
+
+    Attributes:
+        path: waypoints, empty if none was found.
+        goal: index of the goal reached, -1 for none.
+        reason: why not found.
+        search: how it was found.
+    """
+
+    path: list[_core.Configuration] = field(default_factory=list)
+    goal: int = -1
+    reason: str = ""
+    search: Search | None = None
+
+    def __bool__(self) -> bool:
+        return bool(self.path)
+
+
+def go(
+    checker: _core.CollisionChecker,
+    start: _core.Configuration,
+    goals: list[_core.Configuration],
+    options: _core.GrossOptions,
+) -> Journey:
+    """Plan a gross motion to one of some goals with the start's opening."""
+    begin = time.process_time()
+    motion = _core.plan_gross_motion(checker, start, goals, options)
+    cpu_s = time.process_time() - begin
+    if not motion:
+        return Journey(reason=motion.reason)
+    # Empty unless the slices were asked and gave nothing.
+    fallback = getattr(motion, "slices_reason", "")
+    return Journey(list(motion.path), motion.goal, "", Search(motion.planner, cpu_s, fallback))
+
+
+def open_and_go(
+    checker: _core.CollisionChecker,
+    start: _core.Configuration,
+    goal: _core.Configuration,
+    options: _core.GrossOptions,
+    certificate: _core.CertificateOptions,
+) -> Journey:
+    """A gross motion with a change of opening before it where there is room, else after it."""
+    if start.opening == goal.opening:
+        return go(checker, start, [goal], options)
+    opened = _core.Configuration(q=start.q, opening=goal.opening)
+    if _core.certify_edge(checker, start, opened, certificate).is_free:
+        journey = go(checker, opened, [goal], options)
+        if not journey:
+            return journey
+        return Journey([start, *journey.path], 0, "", journey.search)
+    closed = _core.Configuration(q=goal.q, opening=start.opening)
+    journey = go(checker, start, [closed], options)
+    if not journey:
+        return journey
+    if not _core.certify_edge(checker, closed, goal, certificate).is_free:
+        return Journey(reason="no room to open the fingers at either end")
+    return Journey([*journey.path, goal], 0, "", journey.search)
