@@ -20,6 +20,13 @@ class SurfaceTree {
   /// True if the surface winds round the point.
   bool contains(const Eigen::Vector3d& point) const;
 
+  /// The triangles in patches that lie together. `keep(triangles)` is asked from the whole surface
+  /// down; a patch that it does not want is split in two.
+  template <class Keep>
+  void visit_patches(const Keep& keep) const {
+    if (!order_.empty()) visit_patches(0, static_cast<int>(order_.size()), keep);
+  }
+
  private:
   struct Node {
     Eigen::AlignedBox3d box;
@@ -33,6 +40,15 @@ class SurfaceTree {
                      int& winding) const;
 
   TriangleMesh mesh_;
+  template <class Keep>
+  void visit_patches(int first, int count, const Keep& keep) const {
+    const std::vector<int> patch(order_.begin() + first, order_.begin() + first + count);
+    if (keep(patch) || count == 1) return;
+    // The tree splits in the middle too.
+    visit_patches(first, count / 2, keep);
+    visit_patches(first + count / 2, count - count / 2, keep);
+  }
+
   std::vector<int> order_;
   std::vector<Node> nodes_;
 };

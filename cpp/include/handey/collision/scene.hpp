@@ -41,8 +41,12 @@ struct Scene {
 
 struct SceneOptions {
   int patch_triangles = 24;  ///< most triangles of a surface patch's hull
+  /// Patches are split until their hulls stand out of the solid by no more than this, as far as
+  /// samples show: the opening of a shelf is to stay open [m].
+  double patch_excess = 0.005;
 };
 
+/// @throws InvalidInput (E_RANGE) for options that are not positive
 Scene describe_scene(CollisionChecker& checker, const SceneOptions& options = {});
 
 }  // namespace handey

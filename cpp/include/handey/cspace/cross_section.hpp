@@ -17,8 +17,9 @@
 namespace handey {
 
 /// The plane in which the second and third joint move the arm. Frame E turns with the waist: origin
-/// on axis 2, z along axis 2 (lateral), x and y in the plane. At q2 = q3 = 0 the elbow (axis 3) is
-/// at `elbow`.
+/// on axis 2 where axis 1 comes nearest, z along axis 2 (lateral), x and y in the plane, y as near
+/// to axis 1 as may be (x towards the elbow where axis 1 is parallel to axis 2). At q2 = q3 = 0 the
+/// elbow (axis 3) is at `elbow`.
 struct ArmPlane {
   Pose X_1E = Pose::Identity();  ///< E in the body that joint 1 moves
   Pose X_R1 = Pose::Identity();  ///< that body in R at q1 = 0
@@ -39,11 +40,47 @@ struct Slab {
   double lower = 0.0, upper = 0.0;
 };
 
-/// The cross section of a convex obstacle for the waist angles q1 +- half_width, counter-clockwise
-/// in (x, y) of E; empty if it never reaches the slab.
+/// The cross section of a convex obstacle for the waist angles q1 +- half_width: convex,
+/// counter-clockwise in (x, y) of E, three points or more, though it may be as thin as a line;
+/// empty if it never reaches the slab.
 /// @param hull in R
+/// @param half_width of the interval [rad], 0 to pi
+/// @throws InvalidInput (E_NUMBER, E_RANGE, E_INDEX) for numbers that are not finite, a slab whose
+/// upper bound is below its lower one, a half width out of range, edges of points that are not
+/// there. A slab may be infinite.
 Polygon cross_section(const ArmPlane& plane, const SceneHull& hull, const Slab& slab, double q1,
                       double half_width);
+
+/// The same for many obstacles at one interval of the waist, in inner loops: nothing is checked and
+/// memory is used again.
+class WaistCell {
+ public:
+  static constexpr double kWidest = 0.5;  ///< half width [rad]
+  /// @throws InvalidInput (E_RANGE) for a half width that is not between 0 and kWidest
+  WaistCell(const ArmPlane& plane, double q1, double half_width);
+  /// @param section is replaced; empty if the hull never reaches the slab
+  void cross_section(const SceneHull& hull, const Slab& slab, Polygon& section);
+
+ private:
+  /// A vertex of the hull from the waist point, in E, and how far it is within the two clipping
+  /// planes [m].
+  struct Corner {
+    Eigen::Vector3d at;
+    double above = 0.0, below = 0.0;
+  };
+  bool place(const SceneHull& hull, const Slab& slab);
+  void add_swept(const Eigen::Vector3d& corner);
+  void take_hull(Polygon& section);
+
+  Eigen::Matrix3d R_ER_;
+  Eigen::Vector3d p_R_;  // of the waist in R
+  Eigen::Vector3d axis_, forward_, across_;
+  Eigen::Vector2d waist_;
+  double sine_ = 0.0, cosine_ = 1.0, waist_lateral_ = 0.0;
+  bool edge_on_ = false;
+  std::vector<Corner> corners_;
+  std::vector<Eigen::Vector2d> swept_;
+};
 
 /// The article's obstacle: one polygon for all the waist angles in [lower, upper] at which the
 /// obstacle can reach the slab (Figure 8).
@@ -51,7 +88,9 @@ struct Torus {
   double lower = 0.0, upper = 0.0;  ///< [rad]; upper may pass pi: the interval goes on round
   Polygon section;                  ///< in (x, y) of E [m]
 };
-/// Obstacles that surround the axis give one torus all the way round.
+/// Sorted by `lower`, which is in [-pi, pi); windows are exact to 1 degree, on the large side.
+/// Obstacles that surround the axis give one torus all the way round, from -pi to pi.
+/// @throws InvalidInput as cross_section does
 std::vector<Torus> torus_of(const ArmPlane& plane, const SceneHull& hull, const Slab& slab);
 
 }  // namespace handey

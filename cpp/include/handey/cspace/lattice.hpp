@@ -26,11 +26,13 @@ struct Lattice {
   double centre(int level, int joint, int index) const {
     return lower[static_cast<std::size_t>(joint)] + (index + 0.5) * cell_width(level, joint);
   }
+  /// The cell that holds an angle; -1 if it is out of the joint's range by more than 1e-9 rad.
+  int index_of(int level, int joint, double angle) const;
 };
 
 /// @param coarse widest cell of level 0 [rad]
-/// @throws InvalidInput (E_DOF, E_RANGE) for fewer than three joints or a width that is not
-/// positive
+/// @throws InvalidInput (E_DOF, E_RANGE) for fewer than three joints, limits of which only one is
+/// finite, or a width outside 1e-4 to pi
 Lattice make_lattice(const Robot& robot, double coarse = 0.13962634015954636);
 
 }  // namespace handey
