@@ -1,0 +1,68 @@
+// Is a path free? Looked at every 0.25 degrees by code that neither planner uses: convex pieces
+// against convex pieces (or against the triangles of a mesh that is not convex) by separating axes,
+// that is the normals of the faces of both and the cross products of their edges. For polyhedra the
+// least overlap along these axes is exactly the penetration depth; no iteration, no tolerance
+// within. Cylinders and spheres count as inscribed 64-sided polyhedra. Shared with the planners is
+// the robot: its shapes and body_poses.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "handey/handey.hpp"
+
+namespace benchmark {
+
+/// A convex solid or a triangle.
+struct Solid {
+  std::vector<Eigen::Vector3d> points;   ///< [m]
+  std::vector<Eigen::Vector3d> normals;  ///< of the faces, one of every direction
+  std::vector<Eigen::Vector3d> edges;    ///< unit, one of every direction
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;  ///< of the ball that contains it [m]
+};
+
+struct Contact {
+  std::string a, b;    ///< empty: none
+  double depth = 0.0;  ///< [m]
+  double at = 0.0;     ///< of a path, in edges
+};
+
+struct ReplayResult {
+  Contact deepest;     ///< of those deeper than the tolerance
+  std::string reason;  ///< empty: the path is valid
+  bool is_valid() const { return reason.empty(); }
+};
+
+/// Robot bodies that are checked against each other: all but those that do not move against each
+/// other, those joined by a joint, the robot file's list, and those that overlap at home and in
+/// more than 950 of 1000 random configurations. The rule is handey's, the code is not.
+std::vector<std::pair<int, int>> checked_self_pairs(const handey::Robot& robot);
+
+class Replay {
+ public:
+  Replay(const handey::Cell& cell, std::vector<std::pair<int, int>> self_pairs);
+
+  /// The deepest contact deeper than 0.01 mm.
+  Contact find_contact(const handey::Configuration& configuration);
+  /// Also false: a path that does not lead from start to goal, or leaves the joints' limits.
+  ReplayResult check(const std::vector<handey::Configuration>& path,
+                     const handey::Configuration& start, const handey::Configuration& goal);
+
+ private:
+  struct Obstacle {
+    std::string name;
+    std::vector<Solid> solids;  // in R
+    Eigen::AlignedBox3d box;
+  };
+  void place(const handey::Configuration& configuration);
+
+  handey::Cell cell_;
+  std::vector<std::pair<int, int>> self_pairs_;
+  std::vector<std::vector<Solid>> bodies_, placed_;  // by robot body: in its frame, in R
+  std::vector<Obstacle> obstacles_;
+  std::vector<handey::Pose> poses_;
+};
+
+}  // namespace benchmark
