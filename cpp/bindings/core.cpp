@@ -33,5 +33,6 @@ PYBIND11_MODULE(_core, m) {
   bind_collision(m);
   bind_grasp(m);
   bind_approach(m);
+  bind_cspace(m);
   bind_motion(m);
 }

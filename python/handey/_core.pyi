@@ -15,6 +15,7 @@ __all__: list[str] = [
     "ApproachResult",
     "ApproachStatus",
     "ArmJoint",
+    "ArmPlane",
     "Body",
     "BodyRef",
     "Box",
@@ -45,6 +46,7 @@ __all__: list[str] = [
     "InverseSolution",
     "InverseStatus",
     "JointLimit",
+    "Lattice",
     "LegalGrasps",
     "LegalityOptions",
     "LoadedMesh",
@@ -56,6 +58,7 @@ __all__: list[str] = [
     "NearbyBody",
     "OutlinePiece",
     "Overlap",
+    "PlanarArm",
     "PlanarFace",
     "PlanarPose",
     "QuasipotentialOptions",
@@ -71,9 +74,15 @@ __all__: list[str] = [
     "RobotBody",
     "RobotDescription",
     "SamplingOptions",
+    "Scene",
+    "SceneHull",
+    "SceneMover",
+    "SceneObstacle",
+    "SceneOptions",
     "Shape",
     "ShortcutOptions",
     "SingularityMargin",
+    "Slab",
     "SlideResult",
     "SlideStatus",
     "Sphere",
@@ -81,7 +90,9 @@ __all__: list[str] = [
     "SurfaceReport",
     "TimedPath",
     "TimingOptions",
+    "Torus",
     "TriangleMesh",
+    "arm_plane",
     "body_poses",
     "boundary_distance",
     "bump_lines",
@@ -92,11 +103,14 @@ __all__: list[str] = [
     "connected_parts",
     "contains_point",
     "convex_hull",
+    "cross_section",
+    "describe_scene",
     "find_feature_pairs",
     "find_legal_grasps",
     "find_overlaps",
     "fingertip_targets",
     "follow_hand_path",
+    "forbidden_angles",
     "gripper_outline",
     "hand_in_plane",
     "hand_in_world",
@@ -110,6 +124,7 @@ __all__: list[str] = [
     "load_mesh",
     "load_robot",
     "make_collision_model",
+    "make_lattice",
     "motion_bound",
     "nearby_bodies",
     "offset",
@@ -119,6 +134,7 @@ __all__: list[str] = [
     "plan_gross_motion",
     "plan_retreat",
     "planar_faces",
+    "planar_slice",
     "pose_from_xyz_quat",
     "pose_from_xyz_rpy",
     "quaternion_xyzw",
@@ -131,6 +147,7 @@ __all__: list[str] = [
     "tessellate",
     "test_grasp_pose",
     "time_path",
+    "torus_of",
     "touching_bodies",
     "travel_time",
     "unite",
@@ -2148,6 +2165,254 @@ class RetreatResult:
         [m]
         """
 
+class SceneHull:
+    """
+    A convex polyhedron.
+
+    Args:
+        points: vertices (n, 3) [m].
+        edges: pairs of indices of points; more than the polyhedron's edges are allowed. None: all
+            pairs.
+    """
+    def __init__(
+        self, points: typing.Any, edges: collections.abc.Sequence[tuple[int, int]] | None = None
+    ) -> None: ...
+    @property
+    def edges(self) -> list[tuple[int, int]]:
+        """
+        Pairs of indices of points.
+        """
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        Vertices (n, 3) [m].
+        """
+
+class SceneMover:
+    """
+    A body that moves: of the robot, or what it holds.
+    """
+    @property
+    def X_BM(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        Its frame in that body, (4, 4).
+        """
+    @property
+    def body(self) -> int:
+        """
+        Robot body that it is or is held by.
+        """
+    @property
+    def depth(self) -> int:
+        """
+        Number of arm joints that move it.
+        """
+    @property
+    def finger(self) -> bool:
+        """
+        Is it moved by the opening besides?
+        """
+    @property
+    def hulls(self) -> list[SceneHull]:
+        """
+        In its frame.
+        """
+    @property
+    def name(self) -> str: ...
+
+class SceneObstacle:
+    """
+    A body that stands: a fixture or a part.
+    """
+    @property
+    def checked(self) -> list[bool]:
+        """
+        Per mover: is it kept apart from this?
+        """
+    @property
+    def hulls(self) -> list[SceneHull]:
+        """
+        In the robot frame.
+        """
+    @property
+    def name(self) -> str: ...
+
+class Scene:
+    """
+    What a checker keeps apart, as convex hulls.
+    """
+    @property
+    def mover_pairs(self) -> list[tuple[int, int]]:
+        """
+        Indices of movers that are kept apart from each other.
+        """
+    @property
+    def movers(self) -> list[SceneMover]:
+        """
+        Robot bodies, base first, then what is held.
+        """
+    @property
+    def obstacles(self) -> list[SceneObstacle]: ...
+
+class SceneOptions:
+    """
+    Options of describe_scene.
+    """
+    def __init__(self, *, patch_triangles: int = 24, patch_excess: float = 0.005) -> None: ...
+    @property
+    def patch_excess(self) -> float:
+        """
+        How far a patch's hull may stand out of the solid [m].
+        """
+    @patch_excess.setter
+    def patch_excess(self, arg0: float) -> None: ...
+    @property
+    def patch_triangles(self) -> int:
+        """
+        Most triangles of a surface patch's hull.
+        """
+    @patch_triangles.setter
+    def patch_triangles(self, arg0: int) -> None: ...
+
+class Lattice:
+    """
+    The cells of a slice over the first three joints.
+    """
+    def cell_width(self, level: int, joint: int) -> float:
+        """
+        Width of a cell [rad].
+        """
+    def cells(self, level: int, joint: int) -> int:
+        """
+        Number of cells.
+        """
+    def centre(self, level: int, joint: int, index: int) -> float:
+        """
+        Middle of a cell [rad].
+        """
+    def index_of(self, level: int, joint: int, angle: float) -> int:
+        """
+        The cell that holds an angle [rad]; -1 if it is out of the joint's range.
+        """
+    @property
+    def count(self) -> list[int]:
+        """
+        Cells of level 0.
+        """
+    @property
+    def lower(self) -> list[float]:
+        """
+        Of the joints' ranges [rad].
+        """
+    @property
+    def width(self) -> list[float]:
+        """
+        Of a cell of level 0 [rad].
+        """
+    @property
+    def wraps(self) -> list[bool]:
+        """
+        Has the joint no limits?
+        """
+
+class ArmPlane:
+    """
+    The plane in which joints 2 and 3 move the arm.
+
+    Frame E turns with the waist: origin on axis 2, z along it, x and y in the plane.
+    """
+    def X_RE(self, q1: float) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        E in the robot frame at a waist angle [rad], (4, 4).
+        """
+    @property
+    def elbow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Axis 3 in (x, y) of E where joint 2 is 0, (2,) [m].
+        """
+    @property
+    def elbow_sense(self) -> float:
+        """
+        1: joint 3 turns as joint 2 does; -1: the other way.
+        """
+    @property
+    def waist_axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Axis 1 in E, (3,), unit.
+        """
+    @property
+    def waist_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        A point of axis 1 in E, (3,) [m].
+        """
+
+class Slab:
+    """
+    Lateral extent, along z of E.
+
+    Args:
+        lower: [m].
+        upper: [m].
+    """
+    def __init__(self, lower: float, upper: float) -> None: ...
+    @property
+    def lower(self) -> float:
+        """
+        [m]
+        """
+    @lower.setter
+    def lower(self, arg0: float) -> None: ...
+    @property
+    def upper(self) -> float:
+        """
+        [m]
+        """
+    @upper.setter
+    def upper(self, arg0: float) -> None: ...
+
+class Torus:
+    """
+    One section of an obstacle for a window of waist angles.
+    """
+    @property
+    def lower(self) -> float:
+        """
+        [rad], in -pi to pi.
+        """
+    @property
+    def section(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+        """
+        A convex polygon (n, 2) in (x, y) of E [m].
+        """
+    @property
+    def upper(self) -> float:
+        """
+        [rad]; may pass pi: the window goes on round.
+        """
+
+class PlanarArm:
+    """
+    Two links in a plane.
+
+    Args:
+        upper: convex polygons (n, 2) where theta2 is 0, from the shoulder [m].
+        lower: convex polygons (n, 2) where both angles are 0, from the elbow [m].
+        elbow: where theta2 is 0, from the shoulder (2,) [m].
+    """
+    def __init__(
+        self,
+        *,
+        upper: collections.abc.Iterable[typing.Any],
+        lower: collections.abc.Iterable[typing.Any],
+        elbow: typing.Any,
+    ) -> None: ...
+    @property
+    def elbow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]: ...
+    @property
+    def lower(self) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]]: ...
+    @property
+    def upper(self) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]]: ...
+
 class TimingOptions:
     """
     Options of time_path.
@@ -2355,6 +2620,14 @@ class GrossOptions:
         self, *, sampling: SamplingOptions = ..., shortcut: ShortcutOptions = ...
     ) -> None: ...
 
+def arm_plane(robot: Robot) -> tuple[ArmPlane | None, str]:
+    """
+    The arm's plane, if its second and third axes are parallel.
+
+    Returns:
+        The plane and "", or None and why there is none.
+    """
+
 def body_poses(robot: Robot, configuration: Configuration) -> numpy.typing.NDArray[numpy.float64]:
     """
     Pose of every body in the robot frame.
@@ -2434,6 +2707,36 @@ def convex_hull(points: typing.Any) -> TriangleMesh:
         InvalidInput: E_MESH_DEGENERATE for fewer than four points or points in one plane.
     """
 
+def cross_section(
+    plane: ArmPlane, hull: SceneHull, slab: Slab, q1: float, half_width: float
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+    """
+    What of an obstacle is in the slab at any waist angle in q1 +- half_width.
+
+    Contains the true section.
+
+    Args:
+        plane: of the arm.
+        hull: in the robot frame.
+        slab: of the link.
+        q1: waist angle [rad].
+        half_width: 0 to pi [rad].
+
+    Returns:
+        A convex polygon (n, 2) in (x, y) of E, counter-clockwise [m]; n is 0 if the hull never reaches
+        the slab.
+    """
+
+def describe_scene(checker: CollisionChecker, options: SceneOptions = ...) -> Scene:
+    """
+    What a checker keeps apart, as convex hulls.
+
+    A hull contains its piece. A mesh that is not convex is given by hulls of patches of its surface.
+
+    Raises:
+        InvalidInput: for options that are not positive.
+    """
+
 def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = ...) -> FeaturePairs:
     """
     Pairs of planar faces that a parallel jaw can hold (article, step 1).
@@ -2503,6 +2806,23 @@ def follow_hand_path(
     Args:
         X_RH_path: poses in the robot frame, (n, 4, 4).
         q_start: (6,) [rad].
+    """
+
+def forbidden_angles(
+    links: collections.abc.Iterable[typing.Any], obstacles: collections.abc.Iterable[typing.Any]
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+    """
+    The angles at which convex polygons turned about the origin meet others. Exact.
+
+    Args:
+        links: polygons (n, 2) at angle 0 [m].
+        obstacles: polygons (n, 2) [m].
+
+    Returns:
+        Rows of lower and upper limit within 0 to 2 pi, sorted (k, 2) [rad]; touching counts.
+
+    Raises:
+        InvalidInput: for polygons of fewer than three points, or numbers that are not finite.
     """
 
 def gripper_outline(
@@ -2617,6 +2937,18 @@ def load_robot(urdf_path: str, description: RobotDescription) -> LoadedRobot:
 def make_collision_model(cell: Cell) -> CollisionModel:
     """
     Prepare a cell's shapes for collision checking. Raises InvalidInput for invalid cells.
+    """
+
+def make_lattice(robot: Robot, coarse: float = 0.13962634015954636) -> Lattice:
+    """
+    Cut the ranges of the first three joints into cells of 8, 4, 2 and 1 degree, or less.
+
+    Args:
+        robot: of three joints or more.
+        coarse: widest cell of level 0 [rad].
+
+    Raises:
+        InvalidInput: for fewer joints, or a width outside 1e-4 to pi.
     """
 
 def motion_bound(checker: CollisionChecker, a: Configuration, b: Configuration) -> float:
@@ -2778,6 +3110,22 @@ def planar_faces(
 
     Raises:
         InvalidInput: E_RANGE for negative or non-finite options.
+    """
+
+def planar_slice(
+    arm: PlanarArm, obstacles: collections.abc.Iterable[typing.Any], theta2: typing.Any
+) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]]:
+    """
+    The forbidden angles of the lower link, column by column of the upper's. Exact.
+
+    Args:
+        arm: two links.
+        obstacles: convex polygons (n, 2), from the shoulder [m].
+        theta2: angles of the upper link (m,) [rad].
+
+    Returns:
+        Per angle rows of lower and upper limit of theta3 within 0 to 2 pi, (k, 2) [rad]; the whole
+        circle where the upper link itself meets an obstacle.
     """
 
 def pose_from_xyz_quat(
@@ -2986,6 +3334,12 @@ def time_path(
 
     Raises:
         InvalidInput: for an empty path, wrong lengths, numbers or options, or a path outside the limits.
+    """
+
+def torus_of(plane: ArmPlane, hull: SceneHull, slab: Slab) -> list[Torus]:
+    """
+    The article's obstacles: for each window of waist angles at which a hull can reach the
+    slab, one section that contains those of all its angles.
     """
 
 def touching_bodies(
