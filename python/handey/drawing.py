@@ -43,13 +43,13 @@ class Axis:
     tick: float | None = None
 
     def ticks(self, length: float) -> list[float]:
-        """Values of the ticks, at least some 40 picture units apart on an axis of this length."""
+        """Values of the ticks, at least 34 picture units apart on an axis of this length."""
         step = self.tick or self._step(length)
         first, last = math.ceil(self.lower / step - 1e-9), math.floor(self.upper / step + 1e-9)
         return [step * index for index in range(first, last + 1)]
 
     def _step(self, length: float) -> float:
-        least = 40.0 * (self.upper - self.lower) / length
+        least = 34.0 * (self.upper - self.lower) / length
         if self.degrees:
             return next((s for s in (1, 2, 5, 10, 15, 30, 45, 90, 180) if s >= least), 360.0)
         decade = 10.0 ** math.floor(math.log10(least))
