@@ -60,10 +60,10 @@ def test_y_grows_upwards_and_equal_scales_give_the_height() -> None:
 def test_ticks_lie_within_the_axis_and_do_not_crowd() -> None:
     for lower, upper in ((-160, 160), (-225, 45), (-3, 4), (-1000, 1000)):
         ticks = Axis("a", lower, upper).ticks(240)
-        assert 2 <= len(ticks) <= 7
+        assert 2 <= len(ticks) <= 1 + 240 / 34
         assert lower <= min(ticks) and max(ticks) <= upper
     metres = Axis("m", 0.0, 0.66, degrees=False)
-    assert np.allclose(metres.ticks(260), [0.0, 0.2, 0.4, 0.6])
+    assert np.allclose(metres.ticks(160), [0.0, 0.2, 0.4, 0.6])
     assert [metres.written(v) for v in (0.30000000000000004, -0.0)] == ["0.3", "0"]
     assert Axis("a", -90, 90).written(-45) == "\u221245\u00b0"
 
