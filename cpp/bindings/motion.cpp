@@ -128,17 +128,23 @@ Raises:
 void bind_shortcut(py::module_& m) {
   const ShortcutOptions defaults;
   py::class_<ShortcutOptions>(m, "ShortcutOptions", "Options of shorten_path.")
-      .def(py::init([](std::uint64_t seed, int attempts, const CertificateOptions& certificate) {
-             return ShortcutOptions{seed, attempts, certificate};
+      .def(py::init([](std::uint64_t seed, int attempts, double clearance,
+                       const CertificateOptions& certificate) {
+             return ShortcutOptions{seed, attempts, clearance, certificate};
            }),
            py::kw_only(), "seed"_a = defaults.seed, "attempts"_a = defaults.attempts,
-           "certificate"_a = defaults.certificate)
+           "clearance"_a = defaults.clearance, "certificate"_a = defaults.certificate)
       .def_readwrite("seed", &ShortcutOptions::seed, "Fixes every random choice.")
-      .def_readwrite("attempts", &ShortcutOptions::attempts, "Random shortcuts tried.")
+      .def_readwrite("attempts", &ShortcutOptions::attempts, "Most moves of corners tried.")
+      .def_readwrite("clearance", &ShortcutOptions::clearance,
+                     "Kept where the path has it [m]; 0: no more than the certificate's.")
       .def_readwrite("certificate", &ShortcutOptions::certificate);
   m.def("shorten_path", &shorten_path, "checker"_a, "path"_a, "options"_a = ShortcutOptions(),
         py::call_guard<py::gil_scoped_release>(),
         R"(Shorten a certified path; same ends, never longer, every new edge certified.
+
+A new edge keeps options.clearance from everything, except where the path itself is nearer, at its
+ends or in a passage: there it stays at least half as far away as the path does.
 
 Args:
     checker: CollisionChecker of the cell, with what is held.

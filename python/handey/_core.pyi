@@ -2592,15 +2592,23 @@ class ShortcutOptions:
         *,
         seed: typing.SupportsInt | typing.SupportsIndex = 0,
         attempts: typing.SupportsInt | typing.SupportsIndex = 60,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.005,
         certificate: CertificateOptions = ...,
     ) -> None: ...
     @property
     def attempts(self) -> int:
         """
-        Random shortcuts tried.
+        Most moves of corners tried.
         """
     @attempts.setter
     def attempts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        Kept where the path has it [m]; 0: no more than the certificate's.
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def seed(self) -> int:
         """
@@ -3210,6 +3218,9 @@ def shorten_path(
 ) -> list[Configuration]:
     """
     Shorten a certified path; same ends, never longer, every new edge certified.
+
+    A new edge keeps options.clearance from everything, except where the path itself is nearer, at its
+    ends or in a passage: there it stays at least half as far away as the path does.
 
     Args:
         checker: CollisionChecker of the cell, with what is held.
