@@ -25,6 +25,7 @@
 #include "handey/collision/certificate.hpp"
 #include "handey/collision/checker.hpp"
 #include "handey/collision/scene.hpp"
+#include "handey/collision/solids.hpp"
 // grasp
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/features.hpp"
@@ -42,6 +43,7 @@
 #include "handey/cspace/cross_section.hpp"
 #include "handey/cspace/lattice.hpp"
 #include "handey/cspace/planar_arm.hpp"
+#include "handey/cspace/separation.hpp"
 #include "handey/cspace/slice.hpp"
 // motion
 #include "handey/motion/gross.hpp"
