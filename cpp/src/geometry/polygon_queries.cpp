@@ -54,6 +54,19 @@ SquareCell make_cell(const Region& region, const Eigen::Vector2d& centre, double
   return {centre, half, distance, distance + half * std::sqrt(2.0)};
 }
 
+/// Takes out corners that stand out by less than 1e-12 m from between their neighbours.
+void drop_collinear(Polygon& loop) {
+  for (std::size_t i = 0; i < loop.size() && loop.size() > 2;) {
+    const Eigen::Vector2d& before = loop[(i + loop.size() - 1) % loop.size()];
+    const Eigen::Vector2d& after = loop[(i + 1) % loop.size()];
+    if (squared_distance(loop[i], before, after) > 1e-24) {
+      ++i;
+    } else {
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
 }  // namespace
 
 bool contains(const Region& region, const Eigen::Vector2d& point) {
@@ -118,21 +131,22 @@ Polygon convex_hull(const std::vector<Eigen::Vector2d>& points) {
   });
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   if (sorted.size() < 3) return sorted;
-  // Monotone chain; a point that stands out by less than 1e-12 m is taken for collinear.
+  // Monotone chain. No tolerance here: where points differ in x by rounding alone, one that counts
+  // as collinear may be the corner of an upright side.
   Polygon hull;
-  const auto turns_left = [&hull](const Eigen::Vector2d& next) {
-    const Eigen::Vector2d base = next - hull[hull.size() - 2];
-    return cross(hull.back() - hull[hull.size() - 2], base) > 1e-12 * base.norm();
-  };
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (const Eigen::Vector2d& point : sorted) {
-      while (hull.size() >= start + 2 && !turns_left(point)) hull.pop_back();
+      while (hull.size() >= start + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], point - hull[hull.size() - 2]) <= 0.0) {
+        hull.pop_back();
+      }
       hull.push_back(point);
     }
     hull.pop_back();
     std::reverse(sorted.begin(), sorted.end());
   }
+  drop_collinear(hull);
   return hull;
 }
 

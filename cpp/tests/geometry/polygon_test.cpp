@@ -136,5 +136,28 @@ TEST(Polygon, NonsenseIsRefused) {
   EXPECT_THROW(unite({Region{{rectangle(0, 0, 1e9, 1)}}}), InvalidInput);
 }
 
+TEST(ConvexHull, KeepsTheCornersOfSidesThatAreNearlyUpright) {
+  // The left side's middle is a hair to the left, its lower end next, its upper end last: along
+  // such a side the order by x says nothing.
+  const Polygon hull = convex_hull(std::vector<Eigen::Vector2d>{
+      {0.0, 0.5}, {1e-17, 0.0}, {2e-17, 1.0}, {1.0, 0.0}, {1.0 + 2e-16, 0.5}, {1.0, 1.0}});
+  EXPECT_NEAR(signed_area(hull), 1.0, 1e-12);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> angle(0.0, 6.3);
+  for (int i = 0; i < 2000; ++i) {  // a square with points along its sides, turned
+    const double turn = i % 2 == 0 ? angle(random) : 1.5707963267948966 * (i % 7);
+    std::vector<Eigen::Vector2d> points;
+    for (int x = 0; x < 4; ++x) {
+      for (int y = 0; y < 4; ++y) {
+        points.emplace_back(x * std::cos(turn) - y * std::sin(turn),
+                            x * std::sin(turn) + y * std::cos(turn));
+      }
+    }
+    const Polygon square = convex_hull(points);
+    EXPECT_EQ(square.size(), 4u) << turn;
+    EXPECT_NEAR(signed_area(square), 9.0, 1e-9) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace handey
