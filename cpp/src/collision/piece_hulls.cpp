@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numeric>
 #include <utility>
 
 #include "handey/errors.hpp"
@@ -195,6 +195,12 @@ SceneHull hull_of_points(const std::vector<Vector3d>& points) { return wrap(poin
 SceneHull hull_of_piece(const Piece& piece) {
   if (const Box* box = std::get_if<Box>(&piece.shape.geometry)) {
     return box_hull(piece.shape.X_BS, 0.5 * box->size);
+  }
+  if (std::holds_alternative<MeshShape>(piece.shape.geometry)) {
+    const TriangleMesh& mesh = *std::get<MeshShape>(piece.shape.geometry).mesh;
+    std::vector<int> all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0);
+    return hull_of_points(points_of(mesh, all));
   }
   int segments = 32;
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&piece.shape.geometry)) {

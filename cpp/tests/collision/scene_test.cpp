@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../../src/collision/convex_distance.hpp"
+#include "../../src/collision/piece_hulls.hpp"
 #include "handey/errors.hpp"
 #include "puma_cell.hpp"
 
@@ -112,6 +114,76 @@ TEST(DescribeScene, HullsContainEverySurface) {
                    scene.obstacles[f].name);
   }
   EXPECT_EQ(scene.obstacles.back().name, "block");
+}
+
+/// From any vertex, going up along edges as long as they rise leads to the highest point: true of
+/// polyhedra whose edges are all there.
+void expect_all_edges(const SceneHull& hull, Random& random) {
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d up = random.vector(1.0);
+    double highest = up.dot(hull.points.front());
+    for (const Vector3d& point : hull.points) highest = std::max(highest, up.dot(point));
+    std::size_t at =
+        static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(hull.points.size())));
+    for (bool rose = true; rose;) {
+      rose = false;
+      for (const std::pair<int, int>& edge : hull.edges) {
+        const std::size_t a = static_cast<std::size_t>(edge.first),
+                          b = static_cast<std::size_t>(edge.second);
+        if (a != at && b != at) continue;
+        const std::size_t other = a == at ? b : a;
+        if (up.dot(hull.points[other]) <= up.dot(hull.points[at])) continue;
+        at = other;
+        rose = true;
+      }
+    }
+    EXPECT_NEAR(up.dot(hull.points[at]), highest, 1e-9);
+  }
+}
+
+TEST(DescribeScene, NoEdgeIsMissing) {
+  const Cell cell = varied_cell();
+  CollisionChecker checker(make_collision_model(cell), cell);
+  const Scene scene = describe_scene(checker);
+  Random random(12);
+  for (const SceneMover& mover : scene.movers) {
+    for (const SceneHull& hull : mover.hulls) expect_all_edges(hull, random);
+  }
+  for (const SceneObstacle& obstacle : scene.obstacles) {
+    for (const SceneHull& hull : obstacle.hulls) expect_all_edges(hull, random);
+  }
+}
+
+TEST(HullOfPoints, ContainsThemHoweverFlatTheyLie) {
+  Random random(21);
+  for (int i = 0; i < 1000; ++i) {
+    // From 1 m down to nothing along each axis, on a grid now and then.
+    const auto extent = [&] {
+      return random.uniform(0, 4) < 1 ? 0.0 : std::pow(10.0, random.uniform(-12.0, 0.0));
+    };
+    const Vector3d size(random.uniform(0.01, 1.0), extent(), extent());
+    const Pose X = random.pose(1.0);
+    const bool grid = i % 3 == 0;
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 1 + i % 40; ++k) {
+      Vector3d point = random.vector(1.0);
+      if (grid) point = point.array().round();
+      points.push_back(X * point.cwiseProduct(size));
+    }
+    const SceneHull hull = collision::hull_of_points(points);
+    expect_edges_in_range(hull);
+    expect_all_edges(hull, random);
+    for (const Vector3d& point : points) EXPECT_LT(distance_to(hull, point), 2e-8) << i;
+    // And it is no larger than they are.
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d up = random.vector(1.0).normalized();
+      double highest = -1e9, top = -1e9;
+      for (const Vector3d& point : points) highest = std::max(highest, up.dot(point));
+      for (const Vector3d& point : hull.points) top = std::max(top, up.dot(point));
+      EXPECT_GE(top, highest - 1e-11) << i;
+      EXPECT_LE(top, highest + 2e-6) << i;
+    }
+  }
 }
 
 TEST(DescribeScene, ConvexPiecesAreOneHullEachAndBoxesAreExact) {
