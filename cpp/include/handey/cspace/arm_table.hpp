@@ -1,9 +1,11 @@
-// Bit maps of what a small square of the arm's plane forbids: for every square, the cells of
-// (theta2, theta3) in which a link, or the ball round the wrist centre, can meet it. They depend on
-// the robot alone, so they are made once, kept on disk under a key of their content, and a slice
-// for any scene is the union of the maps of the filled squares. Errs on the safe side: whatever a
-// link can reach anywhere within a cell is marked. After Lozano-Perez and O'Donnell, "Parallel
-// robot motion planning", ICRA 1991.
+// Bit maps of what a small piece of the arm's plane forbids: the cells of (theta2, theta3) in which
+// a link can meet it, and the cells in which the wrist can lie in it. They depend on the robot
+// alone, so they are made once, kept on disk under a key of their content, and a slice for any
+// scene is the union of the maps of the filled pieces. The pieces are cut from rings about axis 2,
+// not from squares: a turn of the second joint then only shifts a map by whole rows, and one
+// direction's maps serve for all (1 MB at 8 degrees where squares of 2 cm need 17 MB with their
+// runs). Errs on the safe side: whatever a link can reach anywhere within a cell is marked.
+// After Lozano-Perez and O'Donnell, "Parallel robot motion planning", ICRA 1991.
 #pragma once
 
 #include <memory>
@@ -16,7 +18,7 @@ namespace handey {
 
 struct ArmTableOptions {
   int level = 0;          ///< of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2
-  double square = 0.02;   ///< edge of a square of the plane [m]
+  double square = 0.02;   ///< width of a ring at level 0 [m]; half as wide at each further level
   std::string directory;  ///< where tables are kept; empty: in memory only
 };
 
@@ -36,7 +38,8 @@ class ArmTable {
 
 /// Read from the directory if it is kept there, else made (and kept, if the directory can be
 /// written). A file that does not fit its key is made anew.
-/// @return null, and why in `reason`, for arms whose second and third axes are not parallel
+/// @return null, and why in `reason`, for arms whose second and third axes are not parallel, or
+/// whose hand the third joint does not move
 /// @throws InvalidInput (E_RANGE) for options out of range
 std::shared_ptr<const ArmTable> make_arm_table(const Robot& robot,
                                                const ArmTableOptions& options = {},
