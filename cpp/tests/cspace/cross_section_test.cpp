@@ -57,10 +57,18 @@ SceneHull box_hull(const Vector3d& size, const Pose& X_RB) {
   return hull;
 }
 
-/// A few random points and the edges of all pairs: a superset of the hull's.
+/// A box with its twelve edges, or a few random points and the edges of all pairs: a superset of
+/// the hull's.
 SceneHull random_hull(Numbers& numbers) {
   const Vector3d middle = numbers.vector(1.0);
   const double size = numbers.uniform(0.01, 0.8);
+  if (numbers.below(3) == 0) {
+    Pose X = Pose::Identity();
+    X.linear() = Eigen::AngleAxisd(numbers.uniform(-3, 3), numbers.vector(1.0).normalized())
+                     .toRotationMatrix();
+    X.translation() = middle;
+    return box_hull(numbers.vector(size).cwiseAbs(), X);
+  }
   SceneHull hull;
   const int count = 1 + numbers.below(10);
   for (int i = 0; i < count; ++i) {
