@@ -4,27 +4,28 @@
 // scene: collision geometry is made anew by both; what depends on the robot alone is warm. All
 // times are of the processor. Both planners' paths are replayed every 0.25 degrees by a third
 // checker (replay.hpp). Usage:
-// gross_motion_benchmark MODELS [--family table|clutter|shelf|growth|all] [--queries 50] [--seed 1]
-//   [--no-peer] [--verbose]
+// gross_motion_benchmark MODELS [--family table|clutter|shelf|pockets|growth|all] [--queries 50]
+//   [--seed 1] [--no-peer] [--verbose]
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "gross_report.hpp"
 #include "gross_scenes.hpp"
 #include "ompl_peer.hpp"
 #include "puma560.hpp"
 #include "replay.hpp"
 
 using namespace handey;
+using benchmark::Measured;
 using benchmark::OmplPeer;
-using benchmark::PeerResult;
+using benchmark::Outcome;
 using benchmark::Query;
 using benchmark::Replay;
-using benchmark::ReplayResult;
 using benchmark::Setting;
 
 namespace {
@@ -43,14 +44,12 @@ struct Warm {
   benchmark::PeerRobot peer_robot;
 };
 
-struct Outcome {
-  bool solved = false, valid = false;
-  std::string planner, reason;
-  double scene = 0.0, planning = 0.0, shortening = 0.0;  // CPU [ms]; shortening: the peer's
-  double length = 0.0;                                   // of the path in joint space [rad]
-  double travel = 0.0;                                   // at the velocity limits [s]
-  double all() const { return scene + planning + shortening; }
-};
+Warm warm_up(const Robot& robot) {
+  GrossOptions options;
+  // Whatever is made once per robot and kept, such as the arm's table, belongs here.
+  const std::vector<std::pair<int, int>> self_pairs = benchmark::checked_self_pairs(robot);
+  return {options, self_pairs, benchmark::PeerRobot(robot, self_pairs)};
+}
 
 double cpu_milliseconds() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -58,7 +57,7 @@ void judge(const Cell& cell, const Query& query, const std::vector<Configuration
            Replay& replay, Outcome& outcome) {
   outcome.solved = !path.empty();
   if (!outcome.solved) return;
-  const ReplayResult result = replay.check(path, query.start, query.goal);
+  const benchmark::ReplayResult result = replay.check(path, query.start, query.goal);
   outcome.valid = result.is_valid();
   if (!outcome.valid) outcome.reason = result.reason;
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -86,191 +85,88 @@ Outcome run_peer(const Cell& cell, const Query& query, const Warm& warm, Replay&
   const double begin = cpu_milliseconds();
   OmplPeer peer(cell, warm.peer_robot);
   outcome.scene = cpu_milliseconds() - begin;
-  const PeerResult result = peer.plan(query.start, query.goal);
+  const benchmark::PeerResult result = peer.plan(query.start, query.goal);
   outcome.planning = 1e3 * result.planning;
-  outcome.shortening = 1e3 * result.simplifying;
+  outcome.simplifying = 1e3 * result.simplifying;
   outcome.planner = "OMPL";
   judge(cell, query, result.path, replay, outcome);
   return outcome;
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+bool is_direct(const Cell& cell, const Query& query) {
+  CollisionChecker checker(make_collision_model(cell), cell);
+  return certify_edge(checker, query.start, query.goal).is_free();
 }
 
-template <class Value>
-std::vector<double> values_of(const std::vector<Outcome>& outcomes, const Value& value) {
-  std::vector<double> values;
-  for (const Outcome& outcome : outcomes) values.push_back(value(outcome));
-  return values;
-}
+class Measurement {
+ public:
+  Measurement(const Robot& robot, const Arguments& arguments)
+      : arguments_(arguments), warm_(warm_up(robot)) {}
 
-template <class Claim>
-double percent(const std::vector<Outcome>& outcomes, const Claim& claim) {
-  const auto count = std::count_if(outcomes.begin(), outcomes.end(), claim);
-  return outcomes.empty()
-             ? 0.0
-             : 100.0 * static_cast<double>(count) / static_cast<double>(outcomes.size());
-}
+  /// @param most_peer_queries the peer is asked no more than the first ones
+  void run(const std::string& name, const std::vector<Setting>& settings,
+           std::size_t most_peer_queries = 1000000) const {
+    Measured measured;
+    for (const Setting& setting : settings) {
+      Replay replay(setting.cell, warm_.self_pairs);
+      for (const Query& query : setting.queries) {
+        const bool direct = is_direct(setting.cell, query);
+        const auto keep = [&](std::vector<Outcome>& outcomes, Outcome outcome) {
+          outcome.direct = direct;
+          outcomes.push_back(outcome);
+          if (arguments_.verbose) benchmark::print_query(name, outcomes.size(), query, outcome);
+        };
+        keep(measured.handey, run_handey(setting.cell, query, warm_, replay));
+        if (!arguments_.peer || measured.handey.size() > most_peer_queries) continue;
+        keep(measured.peer, run_peer(setting.cell, query, warm_, replay));
+      }
+    }
+    benchmark::print_rows(name, measured);
+  }
 
-// Of the paths that were returned.
-double percent_valid(const std::vector<Outcome>& outcomes) {
-  std::vector<Outcome> solved;
-  std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(solved),
-               [](const Outcome& outcome) { return outcome.solved; });
-  return percent(solved, [](const Outcome& outcome) { return outcome.valid; });
-}
+  bool wants(const std::string& family) const {
+    return arguments_.family == "all" || arguments_.family == family;
+  }
 
-std::string milliseconds(const std::vector<double>& values) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2f / %.1f", quantile(values, 0.5), quantile(values, 0.95));
-  return text;
-}
-
-struct Measured {
-  std::vector<Outcome> handey, peer;
+ private:
+  const Arguments& arguments_;
+  Warm warm_;
 };
 
-// Median over the queries that both solved; 0 without any.
-template <class Value>
-double median_ratio(const Measured& measured, const Value& value) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < measured.peer.size(); ++i) {
-    if (measured.handey[i].solved && measured.peer[i].solved) {
-      ratios.push_back(value(measured.handey[i]) / value(measured.peer[i]));
-    }
+void measure_families(const Cell& table, const Measurement& measurement,
+                      const Arguments& arguments) {
+  const std::uint64_t seed = arguments.seed;
+  benchmark::print_head();
+  if (measurement.wants("table")) {
+    measurement.run("table", benchmark::table_family(table, seed, arguments.queries));
   }
-  return quantile(ratios, 0.5);
-}
-
-template <class Value>
-double median_solved(const std::vector<Outcome>& outcomes, const Value& value) {
-  std::vector<double> values;
-  for (const Outcome& outcome : outcomes) {
-    if (outcome.solved) values.push_back(value(outcome));
+  if (measurement.wants("clutter")) {
+    measurement.run("clutter", benchmark::clutter_family(table, seed, arguments.queries));
   }
-  return quantile(values, 0.5);
-}
-
-double length_of(const Outcome& outcome) { return outcome.length; }
-double travel_of(const Outcome& outcome) { return outcome.travel; }
-
-void print_row(const std::string& name, const char* planner, const std::vector<Outcome>& outcomes,
-               const std::string& ratio, const std::string& shares) {
-  std::printf(
-      "| %s | %s | %.0f %% | %.0f %% | %.2f | %s | %s | %.2f | %.2f | %s | %s |\n", name.c_str(),
-      planner, percent(outcomes, [](const Outcome& outcome) { return outcome.solved; }),
-      percent_valid(outcomes),
-      quantile(values_of(outcomes, [](const Outcome& o) { return o.scene; }), 0.5),
-      milliseconds(values_of(outcomes, [](const Outcome& o) { return o.planning; })).c_str(),
-      milliseconds(values_of(outcomes, [](const Outcome& o) { return o.all(); })).c_str(),
-      median_solved(outcomes, length_of), median_solved(outcomes, travel_of), ratio.c_str(),
-      shares.c_str());
-}
-
-void print_rows(const std::string& name, const Measured& measured) {
-  const auto share = [&](const char* planner) {
-    return percent(measured.handey, [planner](const Outcome& outcome) {
-      return outcome.solved && outcome.planner == planner;
-    });
-  };
-  const double straight = share("straight"), slices = share("slices");
-  const double fallback =
-      percent(measured.handey, [](const Outcome& o) { return o.solved; }) - straight - slices;
-  char shares[64], ratio[64] = "";
-  std::snprintf(shares, sizeof shares, "%.0f / %.0f / %.0f %%", straight, slices, fallback);
-  if (!measured.peer.empty()) {
-    std::snprintf(ratio, sizeof ratio, "%.2f / %.2f", median_ratio(measured, length_of),
-                  median_ratio(measured, travel_of));
+  if (measurement.wants("shelf")) {
+    const std::vector<Setting> shelf = benchmark::shelf_family(table, seed, arguments.queries);
+    measurement.run("shelf", shelf);
+    benchmark::print_depths(shelf);
   }
-  print_row(name, "handey", measured.handey, ratio, shares);
-  if (!measured.peer.empty()) print_row("", "OMPL + FCL", measured.peer, "", "");
-  std::fflush(stdout);
 }
 
-void print_head() {
-  std::printf(
-      "| scene | planner | solved | valid | CPU ms, scene | CPU ms, planning: median / p95 | CPU "
-      "ms, "
-      "in all: median / p95 | length [rad] | least travel time [s] | length, time relative to OMPL "
-      "| straight / slices / fallback |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
-}
-
-void print_query(const std::string& name, std::size_t number, const Query& query,
-                 const Outcome& outcome) {
-  std::printf("%s %zu: %s %s, %.2f + %.2f + %.2f ms, %.2f rad, %.2f s", name.c_str(), number,
-              outcome.planner.c_str(),
-              !outcome.solved ? "UNSOLVED" : (outcome.valid ? "valid" : "INVALID"), outcome.scene,
-              outcome.planning, outcome.shortening, outcome.length, outcome.travel);
-  if (query.inside > 0.0) std::printf(", %.0f mm inside", 1e3 * query.inside);
-  std::printf("%s%s\n", outcome.reason.empty() ? "" : ": ", outcome.reason.c_str());
-  std::fflush(stdout);
-}
-
-Measured measure(const std::string& name, const std::vector<Setting>& scenes, const Warm& warm,
-                 const Arguments& arguments, int most_peer_queries = 1000000) {
-  Measured measured;
-  for (const Setting& scene : scenes) {
-    Replay replay(scene.cell, warm.self_pairs);
-    for (const Query& query : scene.queries) {
-      measured.handey.push_back(run_handey(scene.cell, query, warm, replay));
-      const std::size_t number = measured.handey.size();
-      if (arguments.verbose) print_query(name, number, query, measured.handey.back());
-      if (!arguments.peer || static_cast<int>(number) > most_peer_queries) continue;
-      measured.peer.push_back(run_peer(scene.cell, query, warm, replay));
-      if (arguments.verbose) print_query(name, number, query, measured.peer.back());
-    }
+void measure_growth(const Cell& table, const Measurement& measurement, const Arguments& arguments) {
+  constexpr std::size_t kPeerQueries = 20, kPeerPockets = 4;
+  const std::uint64_t seed = arguments.seed;
+  benchmark::print_head();
+  if (measurement.wants("pockets")) {
+    measurement.run("no way", {benchmark::pocket_setting(table, seed, arguments.queries)},
+                    kPeerPockets);
   }
-  return measured;
-}
-
-void print_depths(const std::vector<Setting>& scenes) {
-  std::vector<double> depths;
-  for (const Setting& scene : scenes) {
-    for (const Query& query : scene.queries) depths.push_back(1e3 * query.inside);
+  if (!measurement.wants("growth")) return;
+  const std::vector<int> counts = {5, 25, 100, 400};
+  const std::vector<Setting> growth =
+      benchmark::growth_settings(table, seed, arguments.queries, counts);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    measurement.run(std::to_string(counts[i]) + " boxes", {growth[i]}, kPeerQueries);
   }
-  std::printf(
-      "\nIn the shelf the finger tips are %.0f to %.0f mm inside the pigeonhole, median %.0f.\n",
-      quantile(depths, 0.0), quantile(depths, 1.0), quantile(depths, 0.5));
-}
-
-Warm warm_up(const Robot& robot) {
-  GrossOptions options;
-  // Whatever is made once per robot and kept, such as the arm's table, belongs here.
-  const std::vector<std::pair<int, int>> self_pairs = benchmark::checked_self_pairs(robot);
-  return {options, self_pairs, benchmark::PeerRobot(robot, self_pairs)};
-}
-
-void measure_families(const Cell& table, const Warm& warm, const Arguments& arguments) {
-  const std::vector<std::pair<std::string, decltype(&benchmark::table_family)>> families = {
-      {"table", benchmark::table_family},
-      {"clutter", benchmark::clutter_family},
-      {"shelf", benchmark::shelf_family}};
-  std::vector<Setting> shelf;
-  if (arguments.family != "growth") print_head();
-  for (const auto& family : families) {
-    if (arguments.family != "all" && arguments.family != family.first) continue;
-    const std::vector<Setting> scenes = family.second(table, arguments.seed, arguments.queries);
-    print_rows(family.first, measure(family.first, scenes, warm, arguments));
-    if (family.first == "shelf") shelf = scenes;
-  }
-  if (!shelf.empty()) print_depths(shelf);
-}
-
-void measure_growth(const Cell& table, const Warm& warm, const Arguments& arguments) {
-  constexpr int kPeerQueries = 20;
-  std::printf("\n");
-  print_head();
-  for (int boxes : {5, 25, 100, 400}) {
-    const std::string name = std::to_string(boxes) + " boxes";
-    const Setting scene = benchmark::growth_scene(table, arguments.seed, arguments.queries, boxes);
-    print_rows(name, measure(name, {scene}, warm, arguments, kPeerQueries));
-  }
-  const Setting scene = benchmark::tray_scene(table, arguments.seed, arguments.queries);
-  print_rows("20 160 triangles", measure("tray", {scene}, warm, arguments, kPeerQueries));
+  measurement.run("20 160 triangles", {benchmark::tray_setting(table, seed, arguments.queries)},
+                  kPeerQueries);
 }
 
 Arguments read_arguments(int argc, char** argv) {
@@ -298,6 +194,12 @@ Arguments read_arguments(int argc, char** argv) {
       arguments.models = word;
     }
   }
+  const std::vector<std::string> families = {"table",   "clutter", "shelf",
+                                             "pockets", "growth",  "all"};
+  if (std::find(families.begin(), families.end(), arguments.family) == families.end()) {
+    throw std::runtime_error("no family " + arguments.family +
+                             "; there are table, clutter, shelf, pockets, growth, all");
+  }
   return arguments;
 }
 
@@ -307,11 +209,14 @@ int main(int argc, char** argv) try {
   const Arguments arguments = read_arguments(argc, argv);
   OmplPeer::seed(arguments.seed);
   const Cell table = example::table_cell(arguments.models);
-  const Warm warm = warm_up(*table.robot);
-  measure_families(table, warm, arguments);
-  if (arguments.family == "growth" || arguments.family == "all") {
-    measure_growth(table, warm, arguments);
+  const Measurement measurement(*table.robot, arguments);
+  if (arguments.family != "growth" && arguments.family != "pockets") {
+    measure_families(table, measurement, arguments);
   }
+  if (measurement.wants("growth") || measurement.wants("pockets")) {
+    measure_growth(table, measurement, arguments);
+  }
+  benchmark::print_legend();
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

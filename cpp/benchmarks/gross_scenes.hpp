@@ -1,7 +1,8 @@
 // The scenes and queries of the gross motion benchmark, all from a seed: a table with boxes,
 // clutter that hangs in the air, pigeonholes, and tables of growing number of obstacles. Ends are
-// free with 1 mm to spare and the hand moves at least 0.3 m between them. That a way exists is not
-// guaranteed, but for the pigeonholes: from there the hand can be drawn straight out.
+// free with 1 mm to spare, the hand moves at least 0.3 m between them, and a way between them is
+// known to exist (roadmap.hpp; out of a pigeonhole: the hand drawn straight back). Queries that
+// begin or end in a pocket of free space, as random ones in clutter often do, are not among them.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +35,18 @@ std::vector<Setting> clutter_family(const handey::Cell& table, std::uint64_t see
 /// the other end.
 std::vector<Setting> shelf_family(const handey::Cell& table, std::uint64_t seed, int queries);
 
-/// The same queries, ends as in the table family, among the first `boxes` of 400 small boxes: every
-/// other one stands on the table, the others float at the edge of the arm's reach and beyond it.
-/// The ends are free among all 400.
-Setting growth_scene(const handey::Cell& table, std::uint64_t seed, int queries, int boxes);
-/// A tray with a wavy floor and a rim, one mesh of 20 160 triangles that is not convex.
-Setting tray_scene(const handey::Cell& table, std::uint64_t seed, int queries);
+/// A scene of the clutter family whose free space falls into parts; no way is known between start
+/// and goal, and nearly always there is none.
+Setting pocket_setting(const handey::Cell& table, std::uint64_t seed, int queries);
+
+/// The same queries, ends as in the table family and the straight edge blocked, among the boxes of
+/// a table scene and small ones up to the counts: every other one of these stands on the table, the
+/// others float at the edge of the arm's reach and beyond it. A way is known among the most.
+/// @param counts at least 5
+std::vector<Setting> growth_settings(const handey::Cell& table, std::uint64_t seed, int queries,
+                                     const std::vector<int>& counts);
+/// A tray with a wavy floor and a rim, stood on its side before the robot: one mesh of 20 160
+/// triangles that is not convex. The straight edge is blocked.
+Setting tray_setting(const handey::Cell& table, std::uint64_t seed, int queries);
 
 }  // namespace benchmark

@@ -1,27 +1,15 @@
-// Is a path free? Looked at every 0.25 degrees by code that neither planner uses: convex pieces
-// against convex pieces (or against the triangles of a mesh that is not convex) by separating axes,
-// that is the normals of the faces of both and the cross products of their edges. For polyhedra the
-// least overlap along these axes is exactly the penetration depth; no iteration, no tolerance
-// within. Cylinders and spheres count as inscribed 64-sided polyhedra. Shared with the planners is
-// the robot: its shapes and body_poses.
+// Is a path free? Looked at every 0.25 degrees by code that neither planner uses: separating axes
+// (separating_axes.hpp). What the planners and the replay share is the robot: its shapes and
+// body_poses. Not guaranteed: contacts shorter than the step between two samples are not seen.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "handey/handey.hpp"
+#include "separating_axes.hpp"
 
 namespace benchmark {
-
-/// A convex solid or a triangle.
-struct Solid {
-  std::vector<Eigen::Vector3d> points;   ///< [m]
-  std::vector<Eigen::Vector3d> normals;  ///< of the faces, one of every direction
-  std::vector<Eigen::Vector3d> edges;    ///< unit, one of every direction
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0.0;  ///< of the ball that contains it [m]
-};
 
 struct Contact {
   std::string a, b;    ///< empty: none
