@@ -20,6 +20,8 @@ from handey.drawing import Axis, Figure, Panel
 from handey.marks import Area, Line, Marker, Paint, wrapped
 
 COLUMNS = 360  # one degree each
+FACES = 72  # of the torus in space, each way round
+EYE = np.radians([70.0, 48.0])  # turn of the torus, and height of the eye
 MARGIN = np.radians(3.0)  # kept from the ends of the free intervals, where there is room
 TURN = 2 * np.pi
 LENGTHS, HALF_WIDTH = (0.5, 0.42), 0.035  # of the links [m]
@@ -150,7 +152,7 @@ def workspace(path: np.ndarray) -> Panel:
     return panel
 
 
-def torus(forbidden: list[np.ndarray], path: np.ndarray) -> Panel:
+def chart(forbidden: list[np.ndarray], path: np.ndarray) -> Panel:
     """The torus cut open: each edge of the chart continues at the one opposite."""
     x, y = Axis("\u03b8\u2081", 0, 360, tick=90), Axis("\u03b8\u2082", 0, 360, tick=90)
     panel = Panel("(b) configuration space", x, y, 290, 290)
@@ -167,6 +169,61 @@ def torus(forbidden: list[np.ndarray], path: np.ndarray) -> Panel:
     return panel
 
 
+def torus(path: np.ndarray) -> Panel:
+    """The torus in space, far faces first, those turned away left out."""
+    edge = Axis("", -1.5, 1.5, False)
+    panel = Panel("(c) the same as a torus", edge, edge, 290, None, framed=False)
+    drawn = [*_faces(), *_stretches(path)]
+    panel.add(*(mark for _, mark in sorted(drawn, key=lambda entry: entry[0])))
+    return panel
+
+
+def on_torus(theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 3) across, up and towards the eye, and how far the surface faces the eye."""
+    around, about = theta[:, 0] + EYE[0], theta[:, 1]
+    outward = np.column_stack(
+        [np.cos(about) * np.cos(around), np.cos(about) * np.sin(around), np.sin(about)]
+    )
+    ring = np.column_stack([np.cos(around), np.sin(around), np.zeros_like(around)])
+    s, c = np.sin(EYE[1]), np.cos(EYE[1])
+    view = np.array([[1, 0, 0], [0, s, c], [0, -c, s]])
+    return (ring + 0.45 * outward) @ view.T, outward @ view[2]
+
+
+def _faces() -> list[tuple[float, Area]]:
+    """The faces of the torus by their distance, grey where forbidden."""
+    middles = (np.arange(FACES) + 0.5) * TURN / FACES
+    half, faces = TURN / FACES / 2, []
+    columns = _core.planar_slice(ARM, OBSTACLES, middles)
+    corners = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    for theta1, forbidden in zip(middles, columns, strict=True):
+        for theta2 in middles:
+            middle = np.array([theta1, theta2])
+            (place,), (facing,) = on_torus(middle[None])
+            if facing <= -0.1:
+                continue
+            is_blocked = any(low <= theta2 <= high for low, high in forbidden)
+            light = 0.62 + 0.38 * max(0.0, facing)
+            grey = [light * v for v in ((150, 160, 173) if is_blocked else (255, 255, 255))]
+            colour = "#" + "".join(f"{round(v):02x}" for v in grey)
+            outline, _ = on_torus(middle + corners)
+            faces.append((place[2], Area([outline[:, :2]], Paint(colour, colour, 0.5))))
+    return faces
+
+
+def _stretches(path: np.ndarray) -> list[tuple[float, Line | Marker]]:
+    """The path by its distance, piece by piece, where the surface faces the eye."""
+    places, facing = on_torus(path)
+    pieces: list[tuple[float, Line | Marker]] = []
+    for i in np.flatnonzero((facing[:-1] > 0) & (facing[1:] > 0)):
+        line = Line([places[i : i + 2, :2]], PATH.unnamed())
+        pieces.append((places[i, 2] + 0.1, line))  # before the faces that it lies on
+    for i, paint, kind in ((0, AT_START, "circle"), (-1, AT_GOAL, "square")):
+        if facing[i] > 0:
+            pieces.append((places[i, 2] + 0.1, Marker(tuple(places[i, :2]), kind, paint)))
+    return pieces
+
+
 def main(picture: Path) -> bool:
     """Run the example; true if it found what it says."""
     angles = TURN * np.arange(COLUMNS) / COLUMNS
@@ -177,10 +234,13 @@ def main(picture: Path) -> bool:
         return False
     caption = (
         "A two-link planar arm. (a) The arm at start and goal, and on its way. (b) Its "
-        "configuration space, exact in each column of \u03b8\u2081, is a torus: opposite edges of "
-        "the chart are one, and the path goes over them."
+        "configuration space, exact in each column of \u03b8\u2081: opposite edges of the chart "
+        "are one, and the path goes over them. (c) Joined at its edges, the chart is a torus; the "
+        "goal is on its far side."
     )
-    Figure([[workspace(path), torus(forbidden, path)]], caption, "planar arm").save(picture)
+    Figure([[workspace(path), chart(forbidden, path), torus(path)]], caption, "planar arm").save(
+        picture
+    )
     goes_round = any(np.floor(path / TURN).max(axis=0) != np.floor(path / TURN).min(axis=0))
     length = np.degrees(np.abs(np.diff(path, axis=0)).sum(axis=0))
     print(f"path of {len(path)} points, joints turn {length[0]:.0f} and {length[1]:.0f} degrees")

@@ -21,6 +21,7 @@ __all__ = ["Axis", "Figure", "Panel"]
 
 FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 TICK, GAP, LINE = 4.0, 26.0, 15.0  # length of a tick, between panels, between lines of text
+LEFT = 62.0  # of the first frame: room for an axis' letters
 MINUS = "\u2212"
 
 
@@ -42,14 +43,14 @@ class Axis:
     degrees: bool = True
     tick: float | None = None
 
-    def ticks(self, length: float) -> list[float]:
-        """Values of the ticks, at least 34 picture units apart on an axis of this length."""
-        step = self.tick or self._step(length)
+    def ticks(self, length: float, apart: float = 34.0) -> list[float]:
+        """Values of the ticks, no nearer than `apart` picture units on an axis of this length."""
+        step = self.tick or self._step(length, apart)
         first, last = math.ceil(self.lower / step - 1e-9), math.floor(self.upper / step + 1e-9)
         return [step * index for index in range(first, last + 1)]
 
-    def _step(self, length: float) -> float:
-        least = 34.0 * (self.upper - self.lower) / length
+    def _step(self, length: float, apart: float) -> float:
+        least = apart * (self.upper - self.lower) / length
         if self.degrees:
             return next((s for s in (1, 2, 5, 10, 15, 30, 45, 90, 180) if s >= least), 360.0)
         decade = 10.0 ** math.floor(math.log10(least))
@@ -72,6 +73,7 @@ class Panel:
         width: of the frame [picture units].
         height: of the frame; None where both axes are to have the same scale.
         marks: drawn in this order.
+        framed: with its frame and axes.
     """
 
     title: str
@@ -80,6 +82,7 @@ class Panel:
     width: float = 240.0
     height: float | None = 240.0
     marks: list[Mark] = field(default_factory=list)
+    framed: bool = True
 
     def add(self, *marks: Mark) -> None:
         """Draw these over what is there."""
@@ -108,14 +111,16 @@ class Panel:
         for mark in self.marks:
             written += mark.svg(self.to_picture)
         written.append("</svg>")
+        written.append(text(left + width / 2, top - 8, self.title, 11.5, "middle"))
+        if not self.framed:
+            return written
         place = f'x="{number(left)}" y="{number(top)}"'
         written.append(f'<rect {place} {size} fill="none" stroke="{INK}" stroke-width="0.8"/>')
-        written.append(text(left + width / 2, top - 8, self.title, 11.5, "middle"))
         return written + self._x_axis(left, top, outer[0]) + self._y_axis(left, top, outer[1])
 
     def _x_axis(self, left: float, top: float, lettered: bool) -> list[str]:
         width, height = self.frame
-        ticks = self.x.ticks(width)
+        ticks = self.x.ticks(width, 46.0)  # labels side by side
         base, written, path = top + height, [], ""
         for value in ticks:
             x = left + width * (value - self.x.lower) / (self.x.upper - self.x.lower)
@@ -136,7 +141,7 @@ class Panel:
             if lettered:
                 written.append(text(left - TICK - 3, y + 3.5, self.y.written(value), 10, "end"))
         if lettered:
-            x, y = left - TICK - 38, top + height / 2
+            x, y = left - TICK - 44, top + height / 2
             turn = f'transform="rotate(-90 {number(x)} {number(y)})"'
             written.append(text(x, y, self.y.label, 11.5, "middle", turn))
         return [f'<path fill="none" stroke="{INK}" stroke-width="0.8" d="{path}"/>', *written]
@@ -165,8 +170,8 @@ class Figure:
         columns = max(len(row) for row in self.rows)
         widths = [max(r[c].frame[0] for r in self.rows if c < len(r)) for c in range(columns)]
         heights = [max(panel.frame[1] for panel in row) for row in self.rows]
-        margin = 54.0 + (22.0 if self.row_titles else 0.0)
-        inner = GAP if self.shared_axes else GAP + 44.0
+        margin = LEFT + (22.0 if self.row_titles else 0.0)
+        inner = GAP if self.shared_axes else GAP + 50.0
         lefts = [margin + sum(widths[:c]) + c * inner for c in range(columns)]
         total = lefts[-1] + widths[-1] + 20.0
         written, top = [], 30.0
@@ -178,9 +183,9 @@ class Figure:
                 written.append(_upright(14.0, top + height / 2, self.row_titles[number_of_row]))
             is_last = number_of_row == len(self.rows) - 1
             top += height + (40.0 if is_last else 34.0 if self.shared_axes else 72.0)
-        lines, top = self._legend(54.0, top + 18.0, total - 54.0 - 20.0)
+        lines, top = self._legend(LEFT, top + 18.0, total - LEFT - 20.0)
         written += lines
-        lines, top = self._caption(54.0, top + 4.0, total - 54.0 - 20.0)
+        lines, top = self._caption(LEFT, top + 4.0, total - LEFT - 20.0)
         return self._file(written + lines, total, top)
 
     def save(self, path: str | os.PathLike[str]) -> None:
