@@ -89,6 +89,15 @@ def test_shortening_keeps_the_ends_and_saves_time(checker, robot):
     assert _core.certify_path(checker, short).is_free
 
 
+def test_a_shortened_path_keeps_the_clearance_asked_for(checker):
+    way = [stretched(0.9), stretched(1.4), stretched(0.9), stretched(1.2)]
+    shorter = _core.shorten_path(checker, way, _core.ShortcutOptions(clearance=0.01))
+    assert np.array_equal(rows(shorter), rows([way[0], way[-1]]))
+    assert checker.closest(shorter[0]).distance > 0.01
+    with pytest.raises(InvalidInput, match="clearance"):
+        _core.shorten_path(checker, way, _core.ShortcutOptions(clearance=-0.01))
+
+
 def test_a_blocked_start_and_blocked_goals_are_told_by_name(checker):
     start = _core.plan_gross_motion(checker, stretched(0.2), [stretched(-0.9)])
     assert start.status == _core.MotionStatus.StartBlocked and not start
@@ -161,4 +170,5 @@ def test_options_nest_and_can_be_changed():
     options.sampling.certificate.clearance = 1e-3
     assert options.sampling.max_iterations == 7
     assert options.shortcut.attempts == 3
+    assert options.shortcut.clearance == 0.005
     assert options.sampling.certificate.clearance == 1e-3

@@ -23,7 +23,7 @@ using motion::Limits;
 using motion::Waypoint;
 
 // Choice: a gain smaller than this is not worth its proof [s].
-constexpr double kLeastGain = 0.02;
+constexpr double kLeastGain = 0.05;
 constexpr double kRounding = 1e-12;  // of durations [s]
 constexpr double kInLine = 1e-9;     // a waypoint this near to a straight edge lies on it [s]
 // Choice: so many attempts without a gain end the shortening.
@@ -73,13 +73,18 @@ class Shortener {
   const std::vector<Waypoint>& path() const { return path_; }
 
  private:
-  bool is_allowed(const Waypoint& a, const Waypoint& b, bool prove) {
-    return rule_.may_allow(a, b) && (!prove || rule_.allows(a, b));
+  bool is_allowed(std::size_t first, std::size_t last, bool prove) {
+    const std::pair<std::size_t, std::size_t> edge{first, last};
+    if (std::find(refused_.begin(), refused_.end(), edge) != refused_.end()) return false;
+    const Waypoint &a = given_[first], &b = given_[last];
+    const bool allowed = rule_.may_allow(a, b) && (!prove || rule_.allows(a, b));
+    if (!allowed) refused_.push_back(edge);
+    return allowed;
   }
 
   // Appends the shortened stretch between two waypoints of the given path, without the first.
   void divide(std::size_t first, std::size_t last, bool prove, std::vector<std::size_t>& kept) {
-    if (last > first + 1 && !is_allowed(given_[first], given_[last], prove)) {
+    if (last > first + 1 && !is_allowed(first, last, prove)) {
       const auto [farthest, deviation] = farthest_from_edge(first, last);
       if (deviation > kInLine) {
         divide(first, farthest, prove, kept);
@@ -93,7 +98,7 @@ class Shortener {
 
   void leave_out(std::vector<std::size_t>& kept, bool prove) {
     for (std::size_t k = 1; k + 1 < kept.size();) {
-      if (is_allowed(given_[kept[k - 1]], given_[kept[k + 1]], prove)) {
+      if (is_allowed(kept[k - 1], kept[k + 1], prove)) {
         kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
       } else {
         ++k;
@@ -180,6 +185,7 @@ class Shortener {
   const std::vector<Waypoint>& given_;
   const Limits& limits_;
   std::mt19937_64 generator_;
+  std::vector<std::pair<std::size_t, std::size_t>> refused_;  // edges between given waypoints
   std::vector<Waypoint> path_;
 };
 
