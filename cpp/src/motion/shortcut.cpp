@@ -22,8 +22,8 @@ using motion::EdgeTime;
 using motion::Limits;
 using motion::Waypoint;
 
-// Choice: a gain smaller than this is not worth its proof [s].
-constexpr double kLeastGain = 0.05;
+// Choice: a gain smaller than this share of the path's duration is not worth its proof.
+constexpr double kLeastGain = 0.015;
 constexpr double kRounding = 1e-12;  // of durations [s]
 constexpr double kInLine = 1e-9;     // a waypoint this near to a straight edge lies on it [s]
 // Choice: so many attempts without a gain end the shortening.
@@ -60,6 +60,11 @@ class Shortener {
   }
 
   void move_corners(int attempts) {
+    double duration = 0.0;
+    for (std::size_t k = 1; k < path_.size(); ++k) {
+      duration += time(path_[k - 1].configuration, path_[k].configuration).duration;
+    }
+    least_gain_ = kLeastGain * duration;
     int since_gain = 0;
     for (std::size_t k = 1; attempts > 0 && since_gain < kPatience && path_.size() > 2; ++k) {
       if (k + 1 >= path_.size()) k = 1;
@@ -163,7 +168,7 @@ class Shortener {
       }
       const Cost moved = cost_by(before, move.to, after);
       move.gain = cost.duration - moved.duration;
-      if (move.gain > kLeastGain && moved.travel <= cost.travel + kRounding) moves.push_back(move);
+      if (move.gain > least_gain_ && moved.travel <= cost.travel + kRounding) moves.push_back(move);
     }
     std::stable_sort(moves.begin(), moves.end(),
                      [](const Move& a, const Move& b) { return a.gain > b.gain; });
@@ -185,6 +190,7 @@ class Shortener {
   const std::vector<Waypoint>& given_;
   const Limits& limits_;
   std::mt19937_64 generator_;
+  double least_gain_ = 0.0;                                   // [s]
   std::vector<std::pair<std::size_t, std::size_t>> refused_;  // edges between given waypoints
   std::vector<Waypoint> path_;
 };
