@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "handey/errors.hpp"
@@ -34,37 +35,44 @@ void set_half(AxisMotion& axis, double half) {
 
 }  // namespace
 
-BlockedCells::Impl::Impl(CollisionChecker& checker, double opening)
-    : robot(checker.cell().robot), scene(describe_solids(checker)), lattice(make_lattice(*robot)) {
+BlockedCells::Impl::Impl(CollisionChecker& checker, double opening, int finest_level)
+    : robot(checker.cell().robot),
+      scene(describe_solids(checker)),
+      lattice(make_lattice(*robot)),
+      finest_level_(finest_level) {
   if (!std::isfinite(opening)) throw InvalidInput("E_NUMBER", "opening", "is not finite");
-  const std::size_t joints = robot->joints.size();
   middle_.opening = opening;
-  middle_.q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints));
-  axes_.resize(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
-    const JointLimit& limit = robot->joints[j].limit;
+  middle_.q.resize(static_cast<Eigen::Index>(robot->joints.size()));
+  for (const ArmJoint& joint : robot->joints) {
+    const JointLimit& limit = joint.limit;
     const bool bounded = std::isfinite(limit.lower) && std::isfinite(limit.upper);
-    if (bounded) middle_.q[static_cast<Eigen::Index>(j)] = 0.5 * (limit.lower + limit.upper);
-    set_half(axes_[j], bounded ? 0.5 * (limit.upper - limit.lower) : kPi);
+    range_middle_.push_back(bounded ? 0.5 * (limit.lower + limit.upper) : 0.0);
+    range_half_.push_back(bounded ? 0.5 * (limit.upper - limit.lower) : kPi);
   }
+  axes_.resize(robot->joints.size());
   X_RM_.resize(scene.movers.size());
   add_pairs();
   std::size_t cells = 1;
-  for (int joints_shared = 1; joints_shared <= kCellJoints; ++joints_shared) {
-    Known& known = known_[static_cast<std::size_t>(joints_shared - 1)];
-    cells *= static_cast<std::size_t>(lattice.cells(0, joints_shared - 1));
-    known.near.resize(cells);
-    known.has_near.assign(cells, 0);
-    if (joints_shared == kCellJoints) continue;  // each cell is looked at once
-    for (int level = 0; level < Lattice::kLevels; ++level) {
-      known.proof[static_cast<std::size_t>(level)].assign(cells << (level * joints_shared),
-                                                          kNotLooked);
+  for (std::size_t j = 0; j < kCellJoints; ++j) {
+    cells *= static_cast<std::size_t>(lattice.count[j]);
+    near_[j].resize(cells);
+    if (j + 1 == kCellJoints) break;  // each cell is looked at once
+    for (std::size_t level = 0; level < Lattice::kLevels; ++level) {
+      shared_proofs_[j][level].assign(cells << (level * (j + 1)), kNotLooked);
     }
   }
 }
 
 void BlockedCells::Impl::add_pairs() {
-  place(0, {0, 0, 0});
+  place(0, {0, 0, 0}, kCellJoints);
+  for (int m = 0; m < static_cast<int>(scene.movers.size()); ++m) {
+    for (const InnerSolid& solid : scene.movers[static_cast<std::size_t>(m)].solids) {
+      moving_.emplace_back();
+      moving_.back().mover = m;
+      moving_.back().solid = &solid;
+      moving_.back().slack = wrist_slack(m, solid);
+    }
+  }
   for (int m = 0; m < static_cast<int>(scene.movers.size()); ++m) {
     for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
       if (!scene.obstacles[o].checked[static_cast<std::size_t>(m)]) continue;
@@ -91,13 +99,14 @@ void BlockedCells::Impl::add_pair(int mover, int other, int obstacle,
   pair.other_depth = other < 0 ? 0 : scene.movers[static_cast<std::size_t>(other)].depth;
   // No joint of the cell moves one against the other.
   if (pair.depth <= pair.other_depth || pair.other_depth >= kCellJoints) return;
-  for (const InnerSolid& a : scene.movers[static_cast<std::size_t>(mover)].solids) {
-    const double slack = wrist_slack(mover, a);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (moving_[i].mover != mover) continue;
+    pair.moving = static_cast<int>(i);
+    pair.a = moving_[i].solid;
+    pair.slack = moving_[i].slack;
     for (const InnerSolid& b : solids) {
-      if (slack + b.inradius <= 0.0) continue;
-      pair.a = &a;
       pair.b = &b;
-      pairs.push_back(pair);
+      if (pair.slack + b.inradius > 0.0) pairs.push_back(pair);
     }
   }
 }
@@ -132,13 +141,17 @@ double BlockedCells::Impl::wrist_slack(int mover, const InnerSolid& solid) {
   return best;
 }
 
-void BlockedCells::Impl::place(int level, const CellIndex& cell) {
-  if (level == placed_level_ && cell == placed_cell_) return;
+/// The first `joints` joints go anywhere in the cell, the others anywhere.
+void BlockedCells::Impl::place(int level, const CellIndex& cell, int joints) {
+  if (level == placed_level_ && joints == placed_joints_ && cell == placed_cell_) return;
   placed_level_ = level;
+  placed_joints_ = joints;
   placed_cell_ = cell;
-  for (int j = 0; j < kCellJoints; ++j) {
-    middle_.q[j] = lattice.centre(level, j, cell[static_cast<std::size_t>(j)]);
-    set_half(axes_[static_cast<std::size_t>(j)], 0.5 * lattice.cell_width(level, j));
+  finer_ = 1.0 / (1 << std::max(0, finest_level_ - level));
+  for (int j = 0; j < static_cast<int>(axes_.size()); ++j) {
+    const std::size_t at = static_cast<std::size_t>(j);
+    middle_.q[j] = j < joints ? lattice.centre(level, j, cell[at]) : range_middle_[at];
+    set_half(axes_[at], j < joints ? 0.5 * lattice.cell_width(level, j) : range_half_[at]);
   }
   body_poses(*robot, middle_, X_RB_);
   for (std::size_t j = 0; j < axes_.size(); ++j) {
@@ -149,6 +162,7 @@ void BlockedCells::Impl::place(int level, const CellIndex& cell) {
   for (std::size_t m = 0; m < scene.movers.size(); ++m) {
     X_RM_[m] = X_RB_[static_cast<std::size_t>(scene.movers[m].body)] * scene.movers[m].X_BM;
   }
+  for (Moving& moving : moving_) moving.known = false;
 }
 
 RelativeMotion BlockedCells::Impl::motion_of(const SolidPair& pair) const {
@@ -169,10 +183,39 @@ PlacedSolid BlockedCells::Impl::placed_b(const SolidPair& pair) const {
   return {*pair.b, pair.other < 0 ? kIdentity : X_RM_[static_cast<std::size_t>(pair.other)]};
 }
 
-bool BlockedCells::Impl::can_meet(const SolidPair& pair) const {
-  const PlacedSolid a = placed_a(pair);
-  const double motion = motion_of(pair).bound_in_ball(a.X_RS * a.solid.centre, a.solid.radius);
-  return !plainly_apart(a, placed_b(pair), motion);
+void BlockedCells::Impl::set_reach(Moving& moving, int first_joint) const {
+  const int depth = scene.movers[static_cast<std::size_t>(moving.mover)].depth;
+  moving.centre = X_RM_[static_cast<std::size_t>(moving.mover)] * moving.solid->centre;
+  moving.reach = moving.least = 0.0;
+  for (int j = first_joint; j < std::min(depth, kCellJoints); ++j) {
+    const AxisMotion& axis = axes_[static_cast<std::size_t>(j)];
+    const double distance = axis.direction.cross(moving.centre - axis.point).norm();
+    moving.reach += axis.chord * (distance + moving.solid->radius);
+    // How far a point goes in the finest cells, at least. The first joint's axis stays.
+    if (j == 0) moving.least = finer_ * axis.chord * (distance - moving.solid->radius);
+  }
+}
+
+const BlockedCells::Impl::Moving& BlockedCells::Impl::moving(int index) {
+  Moving& moving = moving_[static_cast<std::size_t>(index)];
+  if (!moving.known) set_reach(moving, 0);
+  moving.known = true;
+  return moving;
+}
+
+/// Can the pair overlap deeper, anywhere in the placed cell, than it moves in one of the finest
+/// cells?
+bool BlockedCells::Impl::can_meet(const SolidPair& pair) {
+  if (pair.other < 0) {
+    const Moving& a = moving(pair.moving);
+    if (pair.slack + pair.b->inradius < a.least) return false;
+    const double near = a.reach + a.solid->radius + pair.b->radius;
+    if ((a.centre - pair.b->centre).squaredNorm() > near * near) return false;
+    return !plainly_apart(placed_a(pair), placed_b(pair), a.reach);
+  }
+  Moving between = moving_[static_cast<std::size_t>(pair.moving)];
+  set_reach(between, pair.other_depth);
+  return !plainly_apart(placed_a(pair), placed_b(pair), between.reach);
 }
 
 std::size_t BlockedCells::Impl::key(int level, const CellIndex& cell, int joints) const {
@@ -184,40 +227,48 @@ std::size_t BlockedCells::Impl::key(int level, const CellIndex& cell, int joints
   return index;
 }
 
-/// Pairs that these first joints and no others of the cell move, and that can meet in the coarse
-/// cell.
-const std::vector<int>& BlockedCells::Impl::near_pairs(const CellIndex& coarse, int joints) {
-  Known& known = known_[static_cast<std::size_t>(joints - 1)];
-  const std::size_t index = key(0, coarse, joints);
-  std::vector<int>& near = known.near[index];
-  if (known.has_near[index]) return near;
-  known.has_near[index] = 1;
-  place(0, coarse);
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    if (std::min(pairs[p].depth, kCellJoints) != joints) continue;
-    if (can_meet(pairs[p])) near.push_back(static_cast<int>(p));
+const BlockedCells::Impl::Near& BlockedCells::Impl::near_pairs(const CellIndex& coarse,
+                                                               int joints) {
+  Near& near = near_[static_cast<std::size_t>(joints - 1)][key(0, coarse, joints)];
+  if (near.known) return near;
+  near.known = true;
+  std::vector<int> all;
+  if (joints == 1) {
+    all.resize(pairs.size());
+    std::iota(all.begin(), all.end(), 0);
+  }
+  const std::vector<int>& candidates = joints == 1 ? all : near_pairs(coarse, joints - 1).further;
+  if (candidates.empty()) return near;
+  place(0, coarse, joints);
+  for (const int p : candidates) {
+    const SolidPair& pair = pairs[static_cast<std::size_t>(p)];
+    if (!can_meet(pair)) continue;
+    (pair.depth <= joints || joints == kCellJoints ? near.own : near.further).push_back(p);
   }
   return near;
+}
+
+bool BlockedCells::Impl::proves(const SolidPair& pair) const {
+  const PlacedSolid a = placed_a(pair), b = placed_b(pair);
+  if (plainly_apart(a, b, 0.0)) return false;
+  const PlacedSolid& smaller = a.solid.radius < b.solid.radius ? a : b;
+  Vector3d x = smaller.X_RS * smaller.solid.centre;
+  return overlaps_throughout(a, b, motion_of(pair), x);
 }
 
 int BlockedCells::Impl::prove_shared(int level, const CellIndex& cell, int joints) {
   int* known = nullptr;
   if (joints < kCellJoints) {
-    Known& shared = known_[static_cast<std::size_t>(joints - 1)];
-    known = &shared.proof[static_cast<std::size_t>(level)][key(level, cell, joints)];
+    known = &shared_proofs_[static_cast<std::size_t>(joints - 1)][static_cast<std::size_t>(level)]
+                           [key(level, cell, joints)];
     if (*known != kNotLooked) return *known;
   }
   const CellIndex coarse{cell[0] >> level, cell[1] >> level, cell[2] >> level};
-  const std::vector<int>& near = near_pairs(coarse, joints);
+  const std::vector<int>& near = near_pairs(coarse, joints).own;
   int proof = kNoPair;
-  if (!near.empty()) place(level, cell);
+  if (!near.empty()) place(level, cell, joints);
   for (const int p : near) {
-    const SolidPair& pair = pairs[static_cast<std::size_t>(p)];
-    const PlacedSolid a = placed_a(pair), b = placed_b(pair);
-    if (plainly_apart(a, b, 0.0)) continue;
-    const PlacedSolid& smaller = a.solid.radius < b.solid.radius ? a : b;
-    Vector3d x = smaller.X_RS * smaller.solid.centre;
-    if (!overlaps_throughout(a, b, motion_of(pair), x)) continue;
+    if (!proves(pairs[static_cast<std::size_t>(p)])) continue;
     proof = p;
     break;
   }
@@ -235,11 +286,11 @@ int BlockedCells::Impl::proving_pair(int level, const CellIndex& cell) {
 
 bool BlockedCells::Impl::can_be_blocked(int level, const CellIndex& cell) {
   const CellIndex coarse{cell[0] >> level, cell[1] >> level, cell[2] >> level};
-  for (int joints = 1; joints <= kCellJoints; ++joints) {
-    const std::vector<int>& near = near_pairs(coarse, joints);
+  for (int joints = kCellJoints; joints > 0; --joints) {
+    const std::vector<int>& near = near_pairs(coarse, joints).own;
     if (near.empty()) continue;
     if (level == 0) return true;
-    place(level, cell);
+    place(level, cell, kCellJoints);
     if (std::any_of(near.begin(), near.end(),
                     [this](int p) { return can_meet(pairs[static_cast<std::size_t>(p)]); })) {
       return true;

@@ -14,11 +14,13 @@ namespace cspace {
 
 /// A solid of a mover against one of an obstacle, or of another mover that fewer joints move.
 struct SolidPair {
+  int moving = 0;            ///< index of A among the moving solids
   int mover = 0, other = 0;  ///< other: a mover, or -1
   int obstacle = -1;         ///< if other is -1
   const InnerSolid* a = nullptr;
   const InnerSolid* b = nullptr;
   int depth = 0, other_depth = 0;  ///< number of arm joints that move them
+  double slack = 0.0;  ///< greatest depth in A less what the joints after the third can move it [m]
 };
 
 constexpr int kNoPair = -1;
@@ -26,11 +28,12 @@ constexpr int kNoPair = -1;
 }  // namespace cspace
 
 struct BlockedCells::Impl {
-  Impl(CollisionChecker& checker, double opening);
+  /// @param finest_level of the cells that will be asked for
+  Impl(CollisionChecker& checker, double opening, int finest_level = Lattice::kLevels - 1);
 
   /// The pair that collides everywhere in the cell, or kNoPair.
   int proving_pair(int level, const CellIndex& cell);
-  /// Can any pair meet within the cell? If not, no part of it can be proved blocked.
+  /// Can any cell within this one be proved blocked, as far as is plain?
   bool can_be_blocked(int level, const CellIndex& cell);
   BlockedProof named(int pair) const;
 
@@ -40,29 +43,48 @@ struct BlockedCells::Impl {
   std::vector<cspace::SolidPair> pairs;
 
  private:
-  /// What is known of the cells that share their first 1, 2 or 3 indices.
-  struct Known {
-    std::vector<std::vector<int>> near;  ///< at level 0: pairs that can meet
-    std::vector<char> has_near;
-    std::array<std::vector<int>, Lattice::kLevels> proof;  ///< per level: pair, or not yet looked
+  /// A solid of a mover; where its ball is, and how far it can move in the placed cell against what
+  /// stands.
+  struct Moving {
+    int mover = 0;
+    const InnerSolid* solid = nullptr;
+    double slack = 0.0;  ///< greatest depth less what the joints after the third can move it [m]
+    bool known = false;
+    Eigen::Vector3d centre;
+    double reach = 0.0, least = 0.0;
+  };
+  const Moving& moving(int index);
+  void set_reach(Moving& moving, int first_joint) const;
+  /// Pairs that can meet in a coarse cell of the first 1, 2 or 3 joints.
+  struct Near {
+    bool known = false;
+    std::vector<int> own;      ///< that no further joint of the cell moves
+    std::vector<int> further;  ///< the others, wherever the further joints go
   };
   void add_pairs();
   void add_pair(int mover, int other, int obstacle, const std::vector<InnerSolid>& solids);
   double wrist_slack(int mover, const InnerSolid& solid);
-  void place(int level, const CellIndex& cell);
+  void place(int level, const CellIndex& cell, int joints);
   std::size_t key(int level, const CellIndex& cell, int joints) const;
   cspace::RelativeMotion motion_of(const cspace::SolidPair& pair) const;
-  bool can_meet(const cspace::SolidPair& pair) const;
-  const std::vector<int>& near_pairs(const CellIndex& coarse, int joints);
+  bool can_meet(const cspace::SolidPair& pair);
+  const Near& near_pairs(const CellIndex& coarse, int joints);
   int prove_shared(int level, const CellIndex& cell, int joints);
+  bool proves(const cspace::SolidPair& pair) const;
   cspace::PlacedSolid placed_a(const cspace::SolidPair& pair) const;
   cspace::PlacedSolid placed_b(const cspace::SolidPair& pair) const;
 
-  std::array<Known, 3> known_;
+  std::array<std::vector<Near>, 3> near_;  ///< by the number of joints, then the coarse cell
+  /// Of the cells that share their first 1 or 2 indices: per level the pair, or not yet looked.
+  std::array<std::array<std::vector<int>, Lattice::kLevels>, 2> shared_proofs_;
+  int finest_level_;
+  double finer_ = 1.0;    ///< chord of the finest cells' joints over that of the placed cell's
   Configuration middle_;  ///< the joints after the third stay here
+  std::vector<double> range_middle_, range_half_;  ///< of all joints [rad]
   std::vector<cspace::AxisMotion> axes_;
   std::vector<Pose> X_RB_, X_RM_;
-  int placed_level_ = -1;
+  std::vector<Moving> moving_;
+  int placed_level_ = -1, placed_joints_ = 0;
   CellIndex placed_cell_{};
 };
 

@@ -121,6 +121,10 @@ void CellTree::collect(const Span& span, std::vector<int>& leaves) const {
       for (int k = first[2]; k <= last[2]; ++k) {
         const std::array<int, 3> at{wrapped(i, 0), wrapped(j, 1), wrapped(k, 2)};
         const int id = (at[0] * lattice_.count[1] + at[1]) * lattice_.count[2] + at[2];
+        if (cells_[static_cast<std::size_t>(id)].state != CellState::Cut) {
+          leaves.push_back(id);
+          continue;
+        }
         descend(id, span, {(i - at[0]) * size, (j - at[1]) * size, (k - at[2]) * size}, leaves);
       }
     }

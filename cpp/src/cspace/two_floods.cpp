@@ -12,6 +12,9 @@ namespace {
 constexpr int kDives = 24;
 constexpr std::size_t kFirstBatch = 64;  // cells cut at once after that, then twice as many ...
 
+// Choice: on a dive, the detour that is taken to go round a cell in doubt of weight 1 [rad].
+constexpr double kDetour = 0.035;
+
 /// What a cell in doubt costs: as much as its edge, so that a way does not look worse once it has
 /// been cut.
 int weight_of(const TreeCell& cell) {
@@ -113,7 +116,12 @@ void TwoFloods::reach(std::size_t side, int id, int from, int distance) {
   if (distance + weight >= there.distance) return;
   there.distance = distance + weight;
   there.from = from;
-  queue_[side].push({there.distance, tree_.gap(id, *ends_[1 - side]), id});
+  const double gap = tree_.gap(id, *ends_[1 - side]);
+  if (dives_left_ > 0) {
+    queue_[side].push({0, kDetour * there.distance + gap, id});
+  } else {
+    queue_[side].push({there.distance, gap, id});
+  }
   const Reached& other = reached_[1 - side][static_cast<std::size_t>(id)];
   if (other.distance == kFar) return;
   const int total = there.distance + other.distance - weight;
