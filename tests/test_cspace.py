@@ -180,3 +180,43 @@ def test_a_scene_names_what_moves_and_what_stands(robot):
     assert len(obstacle.hulls[0].edges) == 12
     with pytest.raises(InvalidInput):
         _core.describe_scene(checker, _core.SceneOptions(patch_triangles=0))
+
+
+def walled_cell(robot, height: float):
+    """The arm among a wall that leads outwards from its waist, and a table."""
+    wall = np.eye(4)
+    c, s = math.cos(-1.0), math.sin(-1.0)
+    wall[:3, :3] = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
+    wall[:3, 3] = [0.97 * c, 0.97 * s, 0.5 * height]
+    body = _core.Body(name="wall", shapes=[_core.Shape(_core.Box([1.5, 0.1, height]))], X_WB=wall)
+    start = _core.Configuration(robot.home, 0.1)
+    return _core.Cell(name="walled", robot=robot, fixtures=[body], start=start)
+
+
+def test_a_wall_that_the_arm_cannot_pass_is_told(robot) -> None:
+    start = _core.Configuration([-1.5, 2.0, -2.6, 0.0, 0.0, 0.0], 0.1)
+    goal = _core.Configuration([2.2, 2.0, -2.6, 0.0, 0.0, 0.0], 0.1)
+    answers = []
+    for height in (2.6, 0.3):
+        cell = walled_cell(robot, height)
+        checker = _core.CollisionChecker(_core.make_collision_model(cell), cell)
+        assert checker.is_free(start) and checker.is_free(goal)
+        answers.append(_core.prove_apart(checker, start, [goal]))
+    assert answers[0] and answers[0].apart and answers[0].goal_apart == [True]
+    assert "goal 0 is walled off" in answers[0].reason and "wall" in answers[0].reason
+    assert not answers[1] and answers[1].goal_apart == [False]
+    with pytest.raises(InvalidInput):
+        _core.prove_apart(checker, start, [])
+    with pytest.raises(TypeError):
+        _core.SeparationOptions(cells=3)
+
+
+def test_a_cell_of_the_lattice_in_a_wall_is_blocked(robot) -> None:
+    cell = walled_cell(robot, 2.6)
+    checker = _core.CollisionChecker(_core.make_collision_model(cell), cell)
+    blocked = _core.BlockedCells(checker, 0.1)
+    inside = [blocked.lattice.index_of(1, j, angle) for j, angle in enumerate((0.5, 0.0, 0.0))]
+    proof = blocked.prove(1, inside)
+    assert proof and (proof.mover, proof.other) == ("link2", "wall")
+    with pytest.raises(InvalidInput):
+        blocked.prove(1, [0, 0, -1])

@@ -296,6 +296,81 @@ Returns:
     circle where the upper link itself meets an obstacle.)");
 }
 
+void bind_separation(py::module_& m) {
+  py::class_<BlockedProof>(m, "BlockedProof", "The bodies that collide everywhere in a cell.")
+      .def_readonly("blocked", &BlockedProof::blocked, "Is the cell proved blocked?")
+      .def_readonly("mover", &BlockedProof::mover, "A robot body, or 'held ...'.")
+      .def_readonly("other", &BlockedProof::other, "What it collides with.")
+      .def("__bool__", [](const BlockedProof& self) { return self.blocked; });
+  py::class_<BlockedCells>(m, "BlockedCells",
+                           R"(Proves cells blocked, for one opening and what is held.
+
+A blocked cell has no free configuration, whatever the joints after the third do.
+
+Args:
+    checker: CollisionChecker of the cell, with what is held; it is not kept.
+    opening: between the pads [m].
+
+Raises:
+    InvalidInput: for arms of fewer than three joints, joints of too wide ranges, or an opening
+        that is not finite.)")
+      .def(py::init<CollisionChecker&, double>(), py::arg("checker"), py::arg("opening"),
+           Unlocked())
+      .def_property_readonly("lattice", &BlockedCells::lattice)
+      .def("prove", &BlockedCells::prove, py::arg("level"), py::arg("cell"), Unlocked(),
+           R"(Is a cell proved blocked, and by which bodies?
+
+Args:
+    level: of the lattice.
+    cell: indices along the first three joints.
+
+Returns:
+    BlockedProof, true if it is.)");
+  const SeparationOptions defaults;
+  py::class_<SeparationOptions>(m, "SeparationOptions", "Options of prove_apart.")
+      .def(py::init([](int finest_level, std::size_t most_cells) {
+             return SeparationOptions{finest_level, most_cells};
+           }),
+           py::kw_only(), py::arg("finest_level") = defaults.finest_level,
+           py::arg("most_cells") = defaults.most_cells)
+      .def_readwrite("finest_level", &SeparationOptions::finest_level,
+                     "Of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2, 3 is 1.")
+      .def_readwrite("most_cells", &SeparationOptions::most_cells,
+                     "Cells looked at before it is given up.");
+  py::class_<Separation>(m, "Separation", "Is there no way at all? True if that is proved.")
+      .def_readonly("apart", &Separation::apart, "No path leads to any of the goals.")
+      .def_property_readonly(
+          "goal_apart",
+          [](const Separation& self) {
+            return std::vector<bool>(self.goal_apart.begin(), self.goal_apart.end());
+          },
+          "Per goal: is it proved that no path leads to it?")
+      .def_readonly("resolution", &Separation::resolution,
+                    "Widest edge of the finest cells looked at [rad].")
+      .def_readonly("cells_looked_at", &Separation::cells_looked_at)
+      .def_readonly("reason", &Separation::reason,
+                    "What walls the goals off, or why they are not called apart.")
+      .def("__bool__", [](const Separation& self) { return self.apart; });
+  m.def("prove_apart", &prove_apart, py::arg("checker"), py::arg("start"), py::arg("goals"),
+        py::arg("options") = defaults, Unlocked(),
+        R"(Prove that no path leads from start to goal, whatever the joints after the third do.
+
+What is called apart is apart. What is not may be so all the same.
+
+Args:
+    checker: CollisionChecker of the cell, with what is held.
+    start: Configuration.
+    goals: list of Configuration with the start's opening.
+    options: SeparationOptions.
+
+Returns:
+    Separation.
+
+Raises:
+    InvalidInput: for no goal, wrong lengths, numbers or options, configurations outside the limits.
+)");
+}
+
 }  // namespace
 
 void bind_cspace(py::module_& m) {
@@ -304,6 +379,7 @@ void bind_cspace(py::module_& m) {
   bind_plane(m);
   bind_sections(m);
   bind_planar_arm(m);
+  bind_separation(m);
 }
 
 }  // namespace handey::bindings

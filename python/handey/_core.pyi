@@ -16,6 +16,8 @@ __all__: list[str] = [
     "ApproachStatus",
     "ArmJoint",
     "ArmPlane",
+    "BlockedCells",
+    "BlockedProof",
     "Body",
     "BodyRef",
     "Box",
@@ -79,6 +81,8 @@ __all__: list[str] = [
     "SceneMover",
     "SceneObstacle",
     "SceneOptions",
+    "Separation",
+    "SeparationOptions",
     "Shape",
     "ShortcutOptions",
     "SingularityMargin",
@@ -137,6 +141,7 @@ __all__: list[str] = [
     "planar_slice",
     "pose_from_xyz_quat",
     "pose_from_xyz_rpy",
+    "prove_apart",
     "quaternion_xyzw",
     "rank_grasps",
     "robot_overlaps",
@@ -2628,6 +2633,117 @@ class GrossOptions:
         self, *, sampling: SamplingOptions = ..., shortcut: ShortcutOptions = ...
     ) -> None: ...
 
+class BlockedProof:
+    """
+    The bodies that collide everywhere in a cell.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def blocked(self) -> bool:
+        """
+        Is the cell proved blocked?
+        """
+    @property
+    def mover(self) -> str:
+        """
+        A robot body, or 'held ...'.
+        """
+    @property
+    def other(self) -> str:
+        """
+        What it collides with.
+        """
+
+class BlockedCells:
+    """
+    Proves cells blocked, for one opening and what is held.
+
+    A blocked cell has no free configuration, whatever the joints after the third do.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held; it is not kept.
+        opening: between the pads [m].
+
+    Raises:
+        InvalidInput: for arms of fewer than three joints, joints of too wide ranges, or an opening
+            that is not finite.
+    """
+    def __init__(
+        self, checker: CollisionChecker, opening: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    def prove(
+        self,
+        level: typing.SupportsInt | typing.SupportsIndex,
+        cell: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> BlockedProof:
+        """
+        Is a cell proved blocked, and by which bodies?
+
+        Args:
+            level: of the lattice.
+            cell: indices along the first three joints.
+
+        Returns:
+            BlockedProof, true if it is.
+        """
+    @property
+    def lattice(self) -> Lattice: ...
+
+class SeparationOptions:
+    """
+    Options of prove_apart.
+    """
+    def __init__(
+        self,
+        *,
+        finest_level: typing.SupportsInt | typing.SupportsIndex = 2,
+        most_cells: typing.SupportsInt | typing.SupportsIndex = 100000,
+    ) -> None: ...
+    @property
+    def finest_level(self) -> int:
+        """
+        Of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2, 3 is 1.
+        """
+    @finest_level.setter
+    def finest_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def most_cells(self) -> int:
+        """
+        Cells looked at before it is given up.
+        """
+    @most_cells.setter
+    def most_cells(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class Separation:
+    """
+    Is there no way at all? True if that is proved.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def apart(self) -> bool:
+        """
+        No path leads to any of the goals.
+        """
+    @property
+    def cells_looked_at(self) -> int: ...
+    @property
+    def goal_apart(self) -> list[bool]:
+        """
+        Per goal: is it proved that no path leads to it?
+        """
+    @property
+    def reason(self) -> str:
+        """
+        What walls the goals off, or why they are not called apart.
+        """
+    @property
+    def resolution(self) -> float:
+        """
+        Widest edge of the finest cells looked at [rad].
+        """
+
 def arm_plane(robot: Robot) -> tuple[ArmPlane | None, str]:
     """
     The arm's plane, if its second and third axes are parallel.
@@ -3168,6 +3284,30 @@ def pose_from_xyz_rpy(
 
     Raises:
         InvalidInput: E_NUMBER if a number is not finite.
+    """
+
+def prove_apart(
+    checker: CollisionChecker,
+    start: Configuration,
+    goals: collections.abc.Sequence[Configuration],
+    options: SeparationOptions = ...,
+) -> Separation:
+    """
+    Prove that no path leads from start to goal, whatever the joints after the third do.
+
+    What is called apart is apart. What is not may be so all the same.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held.
+        start: Configuration.
+        goals: list of Configuration with the start's opening.
+        options: SeparationOptions.
+
+    Returns:
+        Separation.
+
+    Raises:
+        InvalidInput: for no goal, wrong lengths, numbers or options, configurations outside the limits.
     """
 
 def quaternion_xyzw(

@@ -11,11 +11,17 @@
 namespace handey {
 
 using cspace::AxisMotion;
+using cspace::coarse_cells;
+using cspace::kMostCoarseCells;
 using cspace::kNoPair;
 using cspace::PlacedSolid;
 using cspace::RelativeMotion;
 using cspace::SolidPair;
 using Eigen::Vector3d;
+
+double cspace::coarse_cells(const Lattice& lattice) {
+  return 1.0 * lattice.count[0] * lattice.count[1] * lattice.count[2];
+}
 
 namespace {
 
@@ -41,6 +47,9 @@ BlockedCells::Impl::Impl(CollisionChecker& checker, double opening, int finest_l
       lattice(make_lattice(*robot)),
       finest_level_(finest_level) {
   if (!std::isfinite(opening)) throw InvalidInput("E_NUMBER", "opening", "is not finite");
+  if (coarse_cells(lattice) > kMostCoarseCells) {
+    throw InvalidInput("E_RANGE", "robot.joints", "the first three joints' ranges are too wide");
+  }
   middle_.opening = opening;
   middle_.q.resize(static_cast<Eigen::Index>(robot->joints.size()));
   for (const ArmJoint& joint : robot->joints) {

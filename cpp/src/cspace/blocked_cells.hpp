@@ -25,6 +25,9 @@ struct SolidPair {
 
 constexpr int kNoPair = -1;
 
+constexpr double kMostCoarseCells = 1e6;  ///< Choice: three joints of a turn and more either way
+double coarse_cells(const Lattice& lattice);
+
 }  // namespace cspace
 
 struct BlockedCells::Impl {

@@ -18,7 +18,6 @@ using cspace::TwoFloods;
 
 // Choice: to look up a neighbour costs about a hundredth of looking at a cell.
 constexpr std::size_t kStepsPerCell = 100;
-constexpr double kMostCoarseCells = 1e6;  // Choice: three joints of a turn and more either way
 
 void require_configuration(const Robot& robot, const Configuration& configuration,
                            const std::string& place) {
@@ -117,7 +116,7 @@ Separation prove_apart(CollisionChecker& checker, const Configuration& start,
   if (robot.joints.size() < 3)
     return not_apart(goals.size(), "the arm has fewer than three joints");
   const Lattice lattice = make_lattice(robot);
-  if (1.0 * lattice.count[0] * lattice.count[1] * lattice.count[2] > kMostCoarseCells) {
+  if (cspace::coarse_cells(lattice) > cspace::kMostCoarseCells) {
     return not_apart(goals.size(), "the first three joints' ranges are too wide");
   }
   BlockedCells blocked(checker, start.opening);

@@ -27,8 +27,8 @@ struct BlockedProof {
 /// checker and does not keep it.
 class BlockedCells {
  public:
-  /// @throws InvalidInput (E_DOF, E_NUMBER) for arms of fewer than three joints or an opening that
-  /// is not finite
+  /// @throws InvalidInput (E_DOF, E_NUMBER, E_RANGE) for arms of fewer than three joints, an
+  /// opening that is not finite, or ranges of the first three joints of more than 10^6 coarse cells
   BlockedCells(CollisionChecker& checker, double opening);
   ~BlockedCells();
   BlockedCells(BlockedCells&&) noexcept;
