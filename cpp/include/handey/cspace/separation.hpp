@@ -47,7 +47,7 @@ class BlockedCells {
 struct SeparationOptions {
   int finest_level = 2;  ///< of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2, 3 is 1
   /// Cells looked at before it is given up. Choice: a few tenths of a second.
-  std::size_t most_cells = 100000;
+  std::size_t most_cells = 60000;
 };
 
 struct Separation {
