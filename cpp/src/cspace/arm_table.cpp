@@ -59,7 +59,8 @@ class Builder {
     for (const LinkGroup& group : table_.links.turning) {
       table_.turning.push_back({group.slab, place(lower_extent(group.outlines), row, size)});
     }
-    table_.wrist = cspace::WristColumns(table_.grid, wrist_spans());
+    table_.wrist = cspace::WristColumns(table_.grid, table_.lattice, table_.level,
+                                        table_.links.plane, table_.links.wrist);
     size_ = size + cspace::kMapBlock;
   }
 
@@ -115,14 +116,6 @@ class Builder {
     visit_sweeps(outlines,
                  [this](const Polygon& polygon, int) { raster_.add_spans(polygon, spans_); });
     return extent_of(spans_);
-  }
-
-  std::vector<std::vector<RingSpan>> wrist_spans() {
-    std::vector<std::vector<RingSpan>> spans(static_cast<std::size_t>(columns()));
-    visit_sweeps({{table_.links.wrist}}, [&](const Polygon& polygon, int column) {
-      raster_.add_spans(polygon, spans[static_cast<std::size_t>(column)]);
-    });
-    return spans;
   }
 
   template <class Visit>

@@ -1,7 +1,7 @@
 // A slice of configuration space over the first three joints: which cells are free for every
 // configuration in them and every wrist value of a range. Built layer by layer of the waist angle,
-// when asked for. The hand with what it holds counts as a ball about the wrist centre (or smaller
-// balls, where the wrist range allows).
+// when asked for. The hand with what it holds counts as a few balls that the forearm carries: what
+// it sweeps while the wrist turns through its range; at most the ball about the wrist centre.
 // Conservative: a cell called free is free; a cell not called free may be free.
 // Article: "Global planning", Figures 7 and 8.
 #pragma once
@@ -10,7 +10,6 @@
 #include <memory>
 #include <string>
 
-#include "handey/collision/box_certificate.hpp"
 #include "handey/cspace/arm_table.hpp"
 
 namespace handey {
