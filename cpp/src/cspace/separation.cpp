@@ -18,6 +18,7 @@ using cspace::TwoFloods;
 
 // Choice: to look up a neighbour costs about a hundredth of looking at a cell.
 constexpr std::size_t kStepsPerCell = 100;
+constexpr std::size_t kMostNames = 8;  // Choice: a line or two
 
 void require_configuration(const Robot& robot, const Configuration& configuration,
                            const std::string& place) {
@@ -67,13 +68,15 @@ double resolution_of(const Lattice& lattice, int level) {
   return widest;
 }
 
-/// Names, those with most cells first.
+/// Names, those with most cells first, the rest counted.
 std::string by_cells(const std::map<std::string, int>& counted) {
   std::vector<std::pair<int, std::string>> sorted;
   for (const auto& [name, cells] : counted) sorted.emplace_back(-cells, name);
   std::sort(sorted.begin(), sorted.end());
   std::string text;
-  for (const auto& entry : sorted) text += (text.empty() ? "" : ", ") + entry.second;
+  const std::size_t told = std::min(sorted.size(), kMostNames);
+  for (std::size_t i = 0; i < told; ++i) text += (i > 0 ? ", " : "") + sorted[i].second;
+  if (told < sorted.size()) text += " and " + std::to_string(sorted.size() - told) + " more";
   return text;
 }
 
