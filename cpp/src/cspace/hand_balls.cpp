@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMost = 200;  // Choice: a point that becomes more counts as ball at the wrist
-constexpr std::size_t kBalls = 3;   // Choice: each costs as much as a link
+constexpr std::size_t kBalls = 2;   // Choice: each costs as much as a link
 constexpr double kWaste = 1.5;      // Choice: of volume, up to which two balls are joined anyway
 
 struct Ball {

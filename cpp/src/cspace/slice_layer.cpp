@@ -14,15 +14,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRounding = 1e-6;  // more than the checker's and all of ours together [m]
-constexpr double kCorner = 0.55;    // Choice: a ball's round corners are 4 % too large [rad]
+constexpr double kCorner = 0.8;     // Choice: a ball's round corners are 4 % too large [rad]
 constexpr double kSharpCorner = 1.6;
 
 /// Limits of the strips as shares of the ball's radius, the middle one first.
 struct Strip {
   double lower, upper;
 };
-constexpr std::array<Strip, 5> kStrips{
-    {{-0.4, 0.4}, {0.4, 0.8}, {-0.8, -0.4}, {0.8, 1.0}, {-1.0, -0.8}}};
+constexpr std::array<Strip, 3> kStrips{{{-0.55, 0.55}, {0.55, 1.0}, {-1.0, -0.55}}};
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -77,13 +76,18 @@ void LayerWork::targets_of(const Standing& standing, std::vector<Target>& target
   };
   if (standing.waist_body) {
     for (const LinkGroup& group : scene_.waist_body) {
+      double reach = margin_;
+      for (const Polygon& outline : group.outlines) {
+        for (const Vector2d& point : outline) reach = std::max(reach, point.norm() + margin_);
+      }
       targets.push_back(
-          {Target::Kind::WaistBody, widened(group.slab), margin_, nullptr, &group, 0});
+          {Target::Kind::WaistBody, widened(group.slab), margin_, nullptr, &group, 0, reach});
     }
   }
   const auto add_groups = [&](Target::Kind kind, const std::vector<GroupMaps>& groups) {
     for (const GroupMaps& group : groups) {
-      targets.push_back({kind, widened(group.slab), margin_, &group.maps, nullptr, 0});
+      targets.push_back({kind, widened(group.slab), margin_, &group.maps, nullptr, 0,
+                         group.maps.last_ring * table_.grid.width + margin_});
     }
   };
   if (standing.upper) add_groups(Target::Kind::Upper, table_.upper);
@@ -93,13 +97,15 @@ void LayerWork::targets_of(const Standing& standing, std::vector<Target>& target
     if (standing.hand[ball] <= 0.0) continue;
     const double radius = standing.hand[ball] + margin_;
     const double centre = scene_.balls[ball].lateral;
+    const int last_ring = scene_.balls[ball].columns.last_ring();
     for (const Strip& strip : kStrips) {
       const double nearest = strip.lower * strip.upper < 0.0
                                  ? 0.0
                                  : std::min(std::abs(strip.lower), std::abs(strip.upper));
       const Slab slab{centre + strip.lower * radius, centre + strip.upper * radius};
-      targets.push_back({Target::Kind::Hand, slab, radius * std::sqrt(1.0 - nearest * nearest),
-                         nullptr, nullptr, ball});
+      const double distance = radius * std::sqrt(1.0 - nearest * nearest);
+      targets.push_back({Target::Kind::Hand, slab, distance, nullptr, nullptr, ball,
+                         last_ring * table_.grid.width + distance});
     }
   }
 }
@@ -169,14 +175,13 @@ void LayerWork::add_at(const Standing& standing, const Pose& X_ER, double half_w
   std::size_t ball = 0;
   middle_.clear();
   for (const Target& target : targets_) {
+    if (maps.all_blocked) return;
     if (target.ball != ball) middle_.clear();
     ball = target.ball;
     if (place.lateral.lower > target.slab.upper || place.lateral.upper < target.slab.lower) {
       continue;
     }
-    if (place.nearest > farthest + target.distance && target.kind != Target::Kind::WaistBody) {
-      continue;
-    }
+    if (place.nearest > target.reach) continue;
     cell.cross_section(standing.hull, target.slab, section_);
     if (section_.empty()) continue;
     // The outer strips' parts mostly lie within the middle one's, which is grown more.

@@ -28,6 +28,7 @@ struct Target {
   const RingMaps* maps = nullptr;    ///< of the link; null for others
   const LinkGroup* group = nullptr;  ///< of the body that joint 1 moves
   std::size_t ball = 0;              ///< of the hand
+  double reach = 0.0;                ///< nothing farther from axis 2 concerns it [m]
 };
 
 class LayerWork {

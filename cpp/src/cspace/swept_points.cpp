@@ -15,19 +15,27 @@ std::vector<Vector3d> swept(const ArmJoint& joint, double lower, double upper,
                             const std::vector<Vector3d>& points) {
   const int parts = std::max(1, static_cast<int>(std::ceil((upper - lower) / kArc)));
   const double part = (upper - lower) / parts, outwards = 1.0 / std::cos(0.5 * part);
+  struct Corner {
+    double cosine, sine;
+  };
+  std::vector<Corner> corners;
+  const auto add = [&corners](double angle, double scale) {
+    corners.push_back({scale * std::cos(angle), scale * std::sin(angle)});
+  };
+  add(lower, 1.0);
+  for (int i = 0; i < parts && part > 0.0; ++i) {
+    add(lower + (i + 0.5) * part, outwards);
+    add(lower + (i + 1) * part, 1.0);
+  }
   std::vector<Vector3d> all;
+  all.reserve(points.size() * corners.size());
   for (const Vector3d& point : points) {
-    const Vector3d along = joint.axis * joint.axis.dot(point), radial = point - along;
-    const Vector3d sideways = joint.axis.cross(point);
-    const auto add = [&](double angle, double scale) {
-      all.push_back(joint.X_PJ *
-                    (along + scale * (std::cos(angle) * radial + std::sin(angle) * sideways)));
-    };
-    add(lower, 1.0);
-    if (part <= 0.0) continue;
-    for (int i = 0; i < parts; ++i) {
-      add(lower + (i + 0.5) * part, outwards);
-      add(lower + (i + 1) * part, 1.0);
+    const Vector3d along = joint.axis * joint.axis.dot(point);
+    const Vector3d base = joint.X_PJ * along;
+    const Vector3d radial = joint.X_PJ.linear() * (point - along);
+    const Vector3d sideways = joint.X_PJ.linear() * joint.axis.cross(point);
+    for (const Corner& corner : corners) {
+      all.push_back(base + corner.cosine * radial + corner.sine * sideways);
     }
   }
   return all;

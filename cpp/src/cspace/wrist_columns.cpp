@@ -35,27 +35,33 @@ struct Orbit {
   }
 };
 
-/// The angles between two at which the point passes from ring to ring, or its distance from axis 2
-/// or its direction turns back; with the two.
-std::vector<double> breaks(const Orbit& orbit, double ring_width, double from, double to) {
-  std::vector<double> cosines{1.0, -1.0};
+/// The angles from 0 to pi at which the point passes from ring to ring, or its distance from axis 2
+/// or its direction turns back.
+std::vector<double> turning_points(const Orbit& orbit, double ring_width) {
+  std::vector<double> angles{0.0, 0.5 * kTurn};
   const double product = orbit.elbow * orbit.radius;
-  if (orbit.radius < orbit.elbow) cosines.push_back(-orbit.radius / orbit.elbow);
+  if (orbit.radius < orbit.elbow) angles.push_back(std::acos(-orbit.radius / orbit.elbow));
   for (int ring = 1; product > 1e-12 && ring * ring_width < orbit.elbow + orbit.radius; ++ring) {
     const double distance = ring * ring_width;
     const double cosine =
         (distance * distance - orbit.elbow * orbit.elbow - orbit.radius * orbit.radius) /
         (2.0 * product);
-    if (cosine > -1.0 && cosine < 1.0) cosines.push_back(cosine);
+    if (cosine > -1.0 && cosine < 1.0) angles.push_back(std::acos(cosine));
   }
+  return angles;
+}
+
+/// Those between two angles, on both sides and at every turn, and the two, in order.
+std::vector<double> breaks(const std::vector<double>& turning, double from, double to) {
   std::vector<double> angles{from, to};
-  for (const double cosine : cosines) {
-    for (const double angle : {std::acos(cosine), -std::acos(cosine)}) {
-      for (double at = angle + kTurn * std::ceil((from - angle) / kTurn); at < to; at += kTurn) {
+  for (const double angle : turning) {
+    for (const double side : {angle, -angle}) {
+      for (double at = side + kTurn * std::ceil((from - side) / kTurn); at < to; at += kTurn) {
         angles.push_back(at);
       }
     }
   }
+  std::sort(angles.begin(), angles.end());
   return angles;
 }
 
@@ -85,11 +91,11 @@ WristColumns::WristColumns(const PolarGrid& grid, const Lattice& lattice, int le
   const double start = std::atan2(point.y(), point.x()) - away;
   const int columns = lattice.cells(level, 2);
   const double width = lattice.cell_width(level, 2);
+  const std::vector<double> turning = turning_points(orbit, grid.width);
   for (int column = 0; column < columns; ++column) {
     const double one = start + plane.elbow_sense * (lattice.lower[2] + column * width);
     const double two = one + plane.elbow_sense * width;
-    std::vector<double> angles = breaks(orbit, grid.width, std::min(one, two), std::max(one, two));
-    std::sort(angles.begin(), angles.end());
+    const std::vector<double> angles = breaks(turning, std::min(one, two), std::max(one, two));
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
       const double middle = 0.5 * (angles[i] + angles[i + 1]);
       const int ring = static_cast<int>(orbit.distance(middle) / grid.width);
