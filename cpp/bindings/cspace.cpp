@@ -373,6 +373,8 @@ Raises:
 
 }  // namespace
 
+void bind_slice(py::module_& m);  // slice.cpp
+
 void bind_cspace(py::module_& m) {
   bind_scene(m);
   bind_lattice(m);
@@ -380,6 +382,7 @@ void bind_cspace(py::module_& m) {
   bind_sections(m);
   bind_planar_arm(m);
   bind_separation(m);
+  bind_slice(m);
 }
 
 }  // namespace handey::bindings

@@ -16,6 +16,8 @@ __all__: list[str] = [
     "ApproachStatus",
     "ArmJoint",
     "ArmPlane",
+    "ArmTable",
+    "ArmTableOptions",
     "BlockedCells",
     "BlockedProof",
     "Body",
@@ -87,6 +89,9 @@ __all__: list[str] = [
     "ShortcutOptions",
     "SingularityMargin",
     "Slab",
+    "Slice",
+    "SliceMode",
+    "SliceOptions",
     "SlideResult",
     "SlideStatus",
     "Sphere",
@@ -96,6 +101,7 @@ __all__: list[str] = [
     "TimingOptions",
     "Torus",
     "TriangleMesh",
+    "WristRange",
     "arm_plane",
     "body_poses",
     "boundary_distance",
@@ -127,6 +133,7 @@ __all__: list[str] = [
     "limit_violation",
     "load_mesh",
     "load_robot",
+    "make_arm_table",
     "make_collision_model",
     "make_lattice",
     "motion_bound",
@@ -2351,6 +2358,51 @@ class ArmPlane:
         A point of axis 1 in E, (3,) [m].
         """
 
+class ArmTable:
+    """
+    What each piece of an arm's plane blocks. Made once per robot; shared.
+    """
+    @property
+    def lattice(self) -> Lattice: ...
+    @property
+    def level(self) -> int:
+        """
+        Of the lattice.
+        """
+
+class ArmTableOptions:
+    """
+    Options of make_arm_table.
+    """
+    def __init__(
+        self,
+        *,
+        level: typing.SupportsInt | typing.SupportsIndex = 0,
+        square: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        directory: str = "",
+    ) -> None: ...
+    @property
+    def directory(self) -> str:
+        """
+        Where tables are kept; empty: in memory only.
+        """
+    @directory.setter
+    def directory(self, arg0: str) -> None: ...
+    @property
+    def level(self) -> int:
+        """
+        Of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2, 3 is 1.
+        """
+    @level.setter
+    def level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def square(self) -> float:
+        """
+        Width of a ring of the arm's plane at level 0 [m].
+        """
+    @square.setter
+    def square(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class Slab:
     """
     Lateral extent, along z of E.
@@ -2744,6 +2796,131 @@ class Separation:
         Widest edge of the finest cells looked at [rad].
         """
 
+class Slice:
+    """
+    Cells of the first three joints, free for a range of the wrist.
+
+    A cell called free is free for every configuration in it and every wrist value of the range. Layers
+    of the waist angle are built when asked for. One worker: not to be shared between threads.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held.
+        table: ArmTable of its robot.
+        wrist: WristRange.
+        opening: between the pads [m].
+        options: SliceOptions.
+
+    Raises:
+        InvalidInput: for a wrist range of the wrong length or not in order, an opening that is not the
+            gripper's, or a table of another robot.
+    """
+    def __init__(
+        self,
+        checker: CollisionChecker,
+        table: ArmTable,
+        wrist: WristRange,
+        opening: typing.SupportsFloat | typing.SupportsIndex,
+        options: SliceOptions = ...,
+    ) -> None: ...
+    def blocked(
+        self, waist_cell: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        One layer of the waist angle: (cells of theta2, cells of theta3), true if blocked.
+        """
+    def is_free(
+        self,
+        cell: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> bool:
+        """
+        Is a cell free? Given by its indices along the first three joints.
+        """
+    @property
+    def lattice(self) -> Lattice: ...
+    @property
+    def layers_built(self) -> int: ...
+    @property
+    def level(self) -> int:
+        """
+        Of the lattice.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why no cell can be free at all; empty if there is no such reason.
+        """
+
+class SliceMode:
+    """
+    How obstacles are taken to the arm's plane.
+
+    Members:
+
+      Cells : a cross section for every cell of the waist angle
+
+      Article : tori: one cross section for all waist angles
+    """
+
+    Article: typing.ClassVar[SliceMode]
+    Cells: typing.ClassVar[SliceMode]
+    __members__: typing.ClassVar[dict[str, SliceMode]]
+    @typing.overload
+    def __eq__(self, other: SliceMode) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: SliceMode) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class SliceOptions:
+    """
+    Options of Slice.
+    """
+
+    mode: SliceMode
+    def __init__(
+        self,
+        *,
+        mode: SliceMode = ...,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        Least distance of free configurations from everything [m].
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class WristRange:
+    """
+    Values of the joints after the third.
+
+    Args:
+        lower: (n - 3,) [rad].
+        upper: (n - 3,) [rad].
+    """
+    def __init__(self, lower: typing.Any, upper: typing.Any) -> None: ...
+    @property
+    def lower(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def upper(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+
 def arm_plane(robot: Robot) -> tuple[ArmPlane | None, str]:
     """
     The arm's plane, if its second and third axes are parallel.
@@ -3056,6 +3233,21 @@ def load_robot(urdf_path: str, description: RobotDescription) -> LoadedRobot:
 
     Raises:
         InvalidInput: with every fault of the file and of the description's names and numbers.
+    """
+
+def make_arm_table(robot: Robot, options: ArmTableOptions = ...) -> tuple[ArmTable | None, str]:
+    """
+    Read a robot's table from the directory if it is kept there, else make and keep it.
+
+    Args:
+        robot: the arm.
+        options: ArmTableOptions.
+
+    Returns:
+        The table and "", or None and why the arm has none.
+
+    Raises:
+        InvalidInput: for options out of range.
     """
 
 def make_collision_model(cell: Cell) -> CollisionModel:
