@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "../collision/puma_cell.hpp"
+#include "../kinematics/test_arms.hpp"
 #include "handey/errors.hpp"
 
 namespace handey {
@@ -63,7 +65,7 @@ std::shared_ptr<const ArmTable> puma_table(int level) {
   std::shared_ptr<const ArmTable>& table = tables.at(static_cast<std::size_t>(level));
   ArmTableOptions options;
   options.level = level;
-  if (!table) table = make_arm_table(*testing::puma(), options);
+  if (!table) table = make_arm_table(*testing::puma_cell().robot, options);
   return table;
 }
 
@@ -147,10 +149,13 @@ double recall(CollisionChecker& checker, Slice& slice, const WristRange& wrist) 
   Random random(77);
   int free = 0, found = 0;
   for (int i = 0; i < 1500; ++i) {
-    Configuration q = random.configuration(*checker.cell().robot);
-    q.opening = checker.cell().start.opening;
+    Configuration q{Eigen::VectorXd(wrist.lower.size() + 3), checker.cell().start.opening};
     CellIndex cell;
     for (int j = 0; j < 3; ++j) {
+      const std::size_t joint = static_cast<std::size_t>(j);
+      const Lattice& lattice = slice.lattice();
+      q.q(j) = lattice.lower[joint] +
+               random.uniform(0.0, 1.0) * lattice.width[joint] * lattice.count[joint];
       cell[static_cast<std::size_t>(j)] = slice.lattice().index_of(slice.level(), j, q.q(j));
     }
     bool is_free = true;
@@ -200,6 +205,85 @@ TEST(Slice, CallsNothingFreeThatIsNotAmongTwentyFiveObstacles) {
 }
 
 TEST(Slice, CallsNothingFreeThatIsNotBeforeAShelf) { expect_sound(shelf(), 0.3); }
+
+/// Boxes about an arm that stands at the origin.
+Cell cell_of(Robot robot, double reach) {
+  Cell cell;
+  cell.name = "arm";
+  robot.home = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot.joints.size()));
+  cell.robot = std::make_shared<const Robot>(std::move(robot));
+  cell.start = {cell.robot->home, cell.robot->gripper.max_opening};
+  cell.fixtures.push_back(box_body("table", {1.2, 1.2, 0.05}, at(0.75, 0, -0.05)));
+  Random random(120);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = random.uniform(-3.1, 3.1), radius = random.uniform(0.6, 0.95) * reach;
+    Pose X = random.pose(0.0);
+    X.translation() = Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle),
+                                      random.uniform(0.1, 0.8) * reach);
+    const Eigen::Vector3d size(random.uniform(0.03, 0.1), random.uniform(0.03, 0.1),
+                               random.uniform(0.03, 0.1));
+    cell.fixtures.push_back(box_body("box" + std::to_string(i), size, X));
+  }
+  return cell;
+}
+
+void expect_sound_arm(const Cell& cell, const WristRange& wrist) {
+  CollisionChecker checker(make_collision_model(cell), cell);
+  for (const SliceMode mode : {SliceMode::Cells, SliceMode::Article}) {
+    ArmTableOptions table;
+    table.level = 1;
+    SliceOptions options;
+    options.mode = mode;
+    Slice slice(checker, make_arm_table(*cell.robot, table), wrist, cell.start.opening, options);
+    ASSERT_EQ(slice.reason(), "");
+    EXPECT_EQ(count_unsound(checker, slice, wrist, 15000, 5), 0);
+    EXPECT_GT(recall(checker, slice, wrist), 0.05);
+  }
+}
+
+TEST(Slice, ServesTheIrb120WithItsMeshesAndWaistOffset) {
+  const std::filesystem::path meshes =
+      std::filesystem::path(HANDEY_SOURCE_DIR).parent_path() /
+      "shared/data/robots/abb_irb120/abb_irb120_support/meshes/irb120_3_58/collision";
+  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << meshes << " is not there";
+  Robot robot = testing::irb120();
+  const char* files[] = {"base_link", "link_1", "link_2", "link_3", "link_4", "link_5", "link_6"};
+  for (std::size_t i = 0; i < 7; ++i) {
+    const LoadedMesh loaded = load_mesh((meshes / (std::string(files[i]) + ".stl")).string());
+    robot.bodies[i].shapes.push_back(
+        {MeshShape{std::make_shared<const TriangleMesh>(loaded.mesh), true}, Pose::Identity()});
+  }
+  for (const FingerJoint& finger : robot.gripper.fingers) {
+    robot.bodies[static_cast<std::size_t>(finger.child)].shapes.push_back(
+        {Box{{0.01, 0.01, 0.04}}, Pose::Identity()});
+  }
+  const Eigen::Vector3d middle(0.2, 0.5, 0.1), half(0.2, 0.2, 0.4);
+  expect_sound_arm(cell_of(robot, 0.6), {middle - half, middle + half});
+}
+
+TEST(Slice, ServesAnArmWithOffsetsAndAWaistWithoutLimits) {
+  Robot robot = testing::ortho_parallel();
+  robot.joints[0].limit.lower = -std::numeric_limits<double>::infinity();
+  robot.joints[0].limit.upper = std::numeric_limits<double>::infinity();
+  const auto bar = [](double x, double y, double z, const Eigen::Vector3d& size) {
+    return Shape{Box{size}, at(x, y, z)};
+  };
+  robot.bodies[1].shapes = {bar(0.05, 0.0, 0.3, {0.2, 0.1, 0.2})};
+  robot.bodies[2].shapes = {bar(0.0, 0.1, 0.3, {0.1, 0.08, 0.7})};
+  robot.bodies[3].shapes = {bar(-0.1, 0.0, 0.3, {0.08, 0.08, 0.5})};
+  robot.bodies[6].shapes = {bar(0.0, 0.0, 0.05, {0.06, 0.06, 0.04})};
+  const Eigen::Vector3d middle(0.0, 0.4, 0.0), half(0.3, 0.3, 3.0);
+  expect_sound_arm(cell_of(robot, 1.3), {middle - half, middle + half});
+}
+
+TEST(Slice, WholeTurnsOfTheLastJointCostNothingOfTheProof) {
+  const Cell cell = testing::puma_cell();
+  CollisionChecker checker(make_collision_model(cell), cell);
+  const Eigen::Vector3d lower(-1.9, -1.4, -4.6), upper(2.9, 1.4, 4.6);
+  Slice slice(checker, puma_table(0), {lower, upper}, 0.1);
+  EXPECT_EQ(slice.reason(), "");
+  EXPECT_EQ(count_unsound(checker, slice, {lower, upper}, 20000, 8), 0);
+}
 
 TEST(Slice, KeepsTheClearanceAsked) {
   const Cell cell = six_boxes();
@@ -303,7 +387,7 @@ TEST(Slice, RefusesWrongInputs) {
             "E_DOF");
   EXPECT_EQ(code(puma_table(0), wrist, 0.2, 1e-4), "E_RANGE");
   EXPECT_EQ(code(puma_table(0), wrist, 0.1, std::nan("")), "E_RANGE");
-  Robot other = *testing::puma();
+  Robot other = *testing::puma_cell().robot;
   other.joints[1].limit.upper -= 0.1;
   EXPECT_EQ(code(make_arm_table(other), wrist, 0.1, 1e-4), "E_REF");
 }
