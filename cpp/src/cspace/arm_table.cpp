@@ -182,8 +182,9 @@ std::shared_ptr<const ArmTable> make_arm_table(const Robot& robot, const ArmTabl
   table->level = options.level;
   table->lattice = make_lattice(robot);
   table->links = *links;
-  table->grid = cspace::PolarGrid(table->lattice, options.level,
-                                  std::ldexp(options.square, -options.level), reach_of(*links));
+  table->grid =
+      cspace::PolarGrid(table->lattice, options.level,
+                        std::ldexp(options.square, -std::min(options.level, 2)), reach_of(*links));
   table->robot = cspace::content_key(robot);
   table->key = cspace::table_key(*table);
   Builder builder(*table);

@@ -16,6 +16,9 @@ int floor_int(double value) { return static_cast<int>(std::floor(value)); }
 
 PolarGrid::PolarGrid(const Lattice& lattice, int level, double ring_width, double reach)
     : width(ring_width) {
+  // Choice: polar cells of no less than half a degree, runs of four cells of theta2.
+  phases = std::max(2, 8 >> std::max(0, level - 1));
+  runs = level < 2 ? 6 : 7 - level;
   rings = floor_int(reach / width) + 1;
   row_count = lattice.cells(level, 1);
   row = lattice.cell_width(level, 1);

@@ -17,8 +17,8 @@
 namespace handey {
 
 struct ArmTableOptions {
-  int level = 0;          ///< of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2
-  double square = 0.02;   ///< width of a ring at level 0 [m]; half as wide at each further level
+  int level = 0;          ///< of the lattice: 0 is 8 degrees, 1 is 4, 2 is 2, 3 is 1
+  double square = 0.02;   ///< width of a ring at level 0 [m]; half at level 1, a quarter beyond
   std::string directory;  ///< where tables are kept; empty: in memory only
 };
 
