@@ -88,7 +88,8 @@ void bind_sampling(py::module_& m) {
            py::kw_only(), "seed"_a = defaults.seed, "max_iterations"_a = defaults.max_iterations,
            "range"_a = defaults.range, "certificate"_a = defaults.certificate)
       .def_readwrite("seed", &SamplingOptions::seed, "Fixes every random choice.")
-      .def_readwrite("max_iterations", &SamplingOptions::max_iterations, "States sampled.")
+      .def_readwrite("max_iterations", &SamplingOptions::max_iterations,
+                     "States sampled, or boxes of the slices looked at.")
       .def_readwrite("range", &SamplingOptions::range,
                      "Longest tree edge, in the weighted metric [rad].")
       .def_readwrite("certificate", &SamplingOptions::certificate);
@@ -96,14 +97,18 @@ void bind_sampling(py::module_& m) {
       .value("Found", MotionStatus::Found)
       .value("StartBlocked", MotionStatus::StartBlocked)
       .value("GoalsBlocked", MotionStatus::GoalsBlocked)
-      .value("IterationLimit", MotionStatus::IterationLimit);
+      .value("IterationLimit", MotionStatus::IterationLimit)
+      .value("Infeasible", MotionStatus::Infeasible, "Proved: no path leads to any free goal.");
   py::class_<MotionResult>(m, "MotionResult", "A motion, or why there is none; true if found.")
       .def_readonly("status", &MotionResult::status)
       .def_readonly("path", &MotionResult::path,
                     "Configurations from the start to goals[goal]; every edge certified.")
       .def_readonly("goal", &MotionResult::goal, "Which goal was reached, -1 for none.")
-      .def_readonly("iterations", &MotionResult::iterations, "States sampled.")
-      .def_readonly("planner", &MotionResult::planner, "'straight' or 'RRT-Connect'.")
+      .def_readonly("iterations", &MotionResult::iterations,
+                    "States sampled, or boxes of the slices looked at.")
+      .def_readonly("planner", &MotionResult::planner, "'straight', 'slices' or 'RRT-Connect'.")
+      .def_readonly("slices_reason", &MotionResult::slices_reason,
+                    "Why the slices gave no way, where they were searched in vain.")
       .def_readonly("reason", &MotionResult::reason, "Why not found, with names and numbers.")
       .def_property_readonly("found", &MotionResult::found)
       .def("__bool__", &MotionResult::found);
@@ -166,15 +171,26 @@ void bind_motion(py::module_& m) {
   bind_sampling(m);
   bind_shortcut(m);
   py::class_<GrossOptions>(m, "GrossOptions", "Options of plan_gross_motion.")
-      .def(py::init([](const SamplingOptions& sampling, const ShortcutOptions& shortcut) {
-             return GrossOptions{sampling, shortcut};
+      .def(py::init([](const FreeSpaceOptions& free_space, const SearchOptions& search,
+                       const SeparationOptions& separation, const SamplingOptions& sampling,
+                       const ShortcutOptions& shortcut) {
+             return GrossOptions{free_space, search, separation, sampling, shortcut};
            }),
-           py::kw_only(), "sampling"_a = SamplingOptions(), "shortcut"_a = ShortcutOptions())
+           py::kw_only(), "free_space"_a = FreeSpaceOptions(), "search"_a = SearchOptions(),
+           "separation"_a = SeparationOptions(), "sampling"_a = SamplingOptions(),
+           "shortcut"_a = ShortcutOptions())
+      .def_readwrite("free_space", &GrossOptions::free_space)
+      .def_readwrite("search", &GrossOptions::search,
+                     "max_proofs = 0: sampling at once where no straight edge is free.")
+      .def_readwrite("separation", &GrossOptions::separation)
       .def_readwrite("sampling", &GrossOptions::sampling)
       .def_readwrite("shortcut", &GrossOptions::shortcut);
-  m.def("plan_gross_motion", &plan_gross_motion, "checker"_a, "start"_a, "goals"_a,
-        "options"_a = GrossOptions(), py::call_guard<py::gil_scoped_release>(),
-        R"(Plan a gross motion: straight if that is free, else by sampling; then shortened.
+  m.def(
+      "plan_gross_motion", &plan_gross_motion, "checker"_a, "start"_a, "goals"_a,
+      "options"_a = GrossOptions(), py::call_guard<py::gil_scoped_release>(),
+      R"(Plan a gross motion: straight if free, else through slices, else by sampling; then shortened.
+
+Where sampling gives no way either, a proof that there is none is tried.
 
 The goal nearest by travel time is tried first; goals in collision are left out.
 

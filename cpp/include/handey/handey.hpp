@@ -41,8 +41,10 @@
 // cspace
 #include "handey/cspace/arm_table.hpp"
 #include "handey/cspace/cross_section.hpp"
+#include "handey/cspace/free_space.hpp"
 #include "handey/cspace/lattice.hpp"
 #include "handey/cspace/planar_arm.hpp"
+#include "handey/cspace/search.hpp"
 #include "handey/cspace/separation.hpp"
 #include "handey/cspace/slice.hpp"
 // motion

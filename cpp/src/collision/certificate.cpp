@@ -25,11 +25,15 @@ constexpr double kRounding = 1e-9;  // of distances and bounds, far above what d
 // depth comes first, which finds the hopeless stretch soon instead of all of its kin.
 constexpr int kBroadFirst = 31;
 
+// Choice: pairs that can come nearer by more than this are hardly ever proved; they go on to the
+// halves without a look [m].
+constexpr double kHopeless = 0.25;
+
 /// Middle `at` and half width of a stretch in the parameter of the edge, and the pairs not yet
 /// proved on it.
 struct Stretch {
   double at = 0.5, half = 0.5;
-  std::vector<PiecePair> pairs;
+  std::vector<NearPair> pairs;
 };
 
 void require_edge(CollisionChecker::Impl& checker, const Configuration& a, const Configuration& b,
@@ -82,8 +86,8 @@ class EdgeProof {
   void stand_in_middle(const Stretch& stretch) {
     ++result_.evaluations;
     checker_.place(between(a_, b_, stretch.at));
-    bounds_.set(stretch.half * (b_.q - a_.q).cwiseAbs(),
-                0.5 * stretch.half * std::abs(b_.opening - a_.opening));
+    bounds_.set(stretch.half * (b_.q - a_.q),
+                0.5 * stretch.half * std::abs(b_.opening - a_.opening), true);
   }
 
   /// How far a pair must be apart in the middle to stay apart on the stretch.
@@ -120,7 +124,7 @@ class EdgeProof {
     bool go_on = true;
     checker_.visit_near([this](const PiecePair& pair) { return needed(pair); },
                         [&](const PiecePair& pair) {
-                          go_on = settle(whole, pair);
+                          go_on = settle(whole, {pair, Eigen::Vector3d::Zero()});
                           return !go_on;
                         });
     return go_on;
@@ -129,25 +133,43 @@ class EdgeProof {
   /// Leaves in the stretch the pairs that are not proved on it. @return false if the edge has
   /// failed
   bool prove(Stretch& stretch) {
-    const std::vector<PiecePair> pairs = std::move(stretch.pairs);
+    const std::vector<NearPair> pairs = std::move(stretch.pairs);
     stretch.pairs.clear();
-    for (const PiecePair& pair : pairs) {
-      if (checker_.rough_distance(pair) > needed(pair)) continue;
+    for (const NearPair& pair : pairs) {
+      if (checker_.rough_distance(pair.pair) > needed(pair.pair)) continue;
       if (!settle(stretch, pair)) return false;
     }
     return true;
   }
 
-  bool settle(Stretch& stretch, const PiecePair& pair) {
+  /// Is a distance along a direction that does not move enough for the whole stretch?
+  bool is_enough_along(const PiecePair& pair, double distance, const Eigen::Vector3d& direction) {
+    return distance > options_.clearance &&
+           distance > options_.clearance +
+                          bounds_.approach_along(pair, direction) * (1.0 + kRounding) + kRounding;
+  }
+
+  bool settle(Stretch& stretch, const NearPair& near) {
+    const PiecePair& pair = near.pair;
+    if (bounds_.approach(pair) > kHopeless) {
+      stretch.pairs.push_back(near);
+      return true;
+    }
+    if (!near.apart.isZero() &&
+        is_enough_along(pair, checker_.distance_along(pair, near.apart), near.apart)) {
+      return true;
+    }
     const double enough = needed(pair);
-    const double distance = checker_.distance(pair, options_.clearance, enough);
+    Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+    const double distance = checker_.distance(pair, options_.clearance, enough, &apart);
     if (distance > enough) return true;
+    if (!apart.isZero() && is_enough_along(pair, distance, apart)) return true;
     if (distance <= options_.clearance)
       return fail(EdgeStatus::Colliding, pair, distance, stretch.at);
     if (2.0 * bounds_.approach(pair) <= options_.resolution) {
       return fail(EdgeStatus::GivenUp, pair, distance, stretch.at);
     }
-    stretch.pairs.push_back(pair);
+    stretch.pairs.push_back({pair, apart});
     return true;
   }
 

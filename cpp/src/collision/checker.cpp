@@ -160,17 +160,34 @@ void CollisionChecker::Impl::place(const Configuration& configuration) {
   }
 }
 
-double CollisionChecker::Impl::distance(const PiecePair& pair, double least, double enough) const {
+double CollisionChecker::Impl::distance(const PiecePair& pair, double least, double enough,
+                                        Vector3d* apart) const {
   const std::size_t m = static_cast<std::size_t>(pair.mover);
   const std::size_t index = static_cast<std::size_t>(pair.other_piece);
   if (pair.other >= 0) {
     return piece_distance(piece(pair.mover, pair.piece), X_RM[m],
                           piece(pair.other, pair.other_piece),
-                          X_RM[static_cast<std::size_t>(pair.other)], least, enough);
+                          X_RM[static_cast<std::size_t>(pair.other)], least, enough, apart);
   }
   const ObstaclePiece& obstacle = obstacle_pieces[index];
   return piece_distance(piece(pair.mover, pair.piece), X_RM[m], *obstacle.piece,
-                        obstacles[static_cast<std::size_t>(obstacle.obstacle)].X_RB, least, enough);
+                        obstacles[static_cast<std::size_t>(obstacle.obstacle)].X_RB, least, enough,
+                        apart);
+}
+
+double CollisionChecker::Impl::distance_along(const PiecePair& pair,
+                                              const Vector3d& direction) const {
+  const collision::Piece& own = piece(pair.mover, pair.piece);
+  const Pose& X_RA = X_RM[static_cast<std::size_t>(pair.mover)];
+  const ObstaclePiece* obstacle =
+      pair.other < 0 ? &obstacle_pieces[static_cast<std::size_t>(pair.other_piece)] : nullptr;
+  const collision::Piece& other =
+      obstacle != nullptr ? *obstacle->piece : piece(pair.other, pair.other_piece);
+  const Pose& X_RO = obstacle != nullptr
+                         ? obstacles[static_cast<std::size_t>(obstacle->obstacle)].X_RB
+                         : X_RM[static_cast<std::size_t>(pair.other)];
+  if (!own.convex || !other.convex) return -std::numeric_limits<double>::infinity();
+  return collision::convex_distance_along(own.hull, X_RA, other.hull, X_RO, direction);
 }
 
 double CollisionChecker::Impl::rough_distance(const PiecePair& pair) const {

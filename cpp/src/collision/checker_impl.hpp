@@ -70,7 +70,11 @@ struct CollisionChecker::Impl {
   /// @throws InvalidInput for wrong lengths or numbers that are not finite
   void place(const Configuration& configuration);
   /// Lower bound of the distance of two pieces as placed; same terms as convex_distance.
-  double distance(const collision::PiecePair& pair, double least, double enough) const;
+  double distance(const collision::PiecePair& pair, double least, double enough,
+                  Eigen::Vector3d* apart = nullptr) const;
+  /// How far the first piece of a pair lies beyond the second along a unit direction, as placed;
+  /// -infinity for pieces that are not convex [m].
+  double distance_along(const collision::PiecePair& pair, const Eigen::Vector3d& direction) const;
   /// A cheap lower bound of the same, from balls and boxes.
   double rough_distance(const collision::PiecePair& pair) const;
   Hit hit(const collision::PiecePair& pair, double distance) const;

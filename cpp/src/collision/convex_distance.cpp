@@ -129,7 +129,7 @@ Vector3d ConvexSolid::farthest(const Vector3d& direction) const {
 }
 
 double convex_distance(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid& b,
-                       const Pose& X_WB, double least, double enough) {
+                       const Pose& X_WB, double least, double enough, Vector3d* apart) {
   const double rounding = a.rounding + b.rounding;
   const auto difference_support = [&](const Vector3d& direction) -> Vector3d {
     const Vector3d in_a = X_WA.linear().transpose() * direction;
@@ -148,7 +148,11 @@ double convex_distance(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid
       length = 1.0;
     }
     const Vector3d point = difference_support(-nearest);
-    lower = std::max(lower, nearest.dot(point) / length - rounding);
+    const double bound = nearest.dot(point) / length - rounding;
+    if (bound > lower) {
+      lower = bound;
+      if (apart != nullptr) *apart = nearest / length;
+    }
     if (lower > enough) return lower;
     if (std::isfinite(upper) && upper - lower <= kAbsoluteGap + kRelativeGap * upper) return lower;
     for (int i = 0; i < simplex.count; ++i) {
@@ -166,6 +170,13 @@ double convex_distance(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid
     simplex = keep(simplex, next);
   }
   return lower;
+}
+
+double convex_distance_along(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid& b,
+                             const Pose& X_WB, const Vector3d& direction) {
+  const Vector3d near_a = X_WA * a.farthest(X_WA.linear().transpose() * -direction);
+  const Vector3d far_b = X_WB * b.farthest(X_WB.linear().transpose() * direction);
+  return direction.dot(near_a - far_b) - a.rounding - b.rounding;
 }
 
 }  // namespace handey::collision

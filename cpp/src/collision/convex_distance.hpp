@@ -29,7 +29,15 @@ struct ConvexSolid {
 /// A lower bound of the distance of A from B; negative or zero where they overlap or nearly so [m].
 /// Above `enough` it may be any bound that is; below `least` it may be any number below `least`.
 /// Between the two it is exact to about 1e-8 m + 1e-6 of itself.
+/// @param apart  if given: the unit direction along which A lies beyond B by what is returned, if
+/// that is positive
 double convex_distance(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid& b,
-                       const Pose& X_WB, double least, double enough);
+                       const Pose& X_WB, double least, double enough,
+                       Eigen::Vector3d* apart = nullptr);
+
+/// How far A lies beyond B along a unit direction; negative where their extents along it overlap
+/// [m].
+double convex_distance_along(const ConvexSolid& a, const Pose& X_WA, const ConvexSolid& b,
+                             const Pose& X_WB, const Eigen::Vector3d& direction);
 
 }  // namespace handey::collision

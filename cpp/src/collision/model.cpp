@@ -149,18 +149,31 @@ void find_self_pairs(CollisionModel::Impl& model) {
 
 }  // namespace
 
-std::shared_ptr<const CollisionModel> make_collision_model(const Cell& cell) {
+std::shared_ptr<const CollisionModel> make_collision_model(
+    const Cell& cell, const std::shared_ptr<const CollisionModel>& same_robot) {
   require_valid(cell);
   std::unique_ptr<CollisionModel::Impl> model = std::make_unique<CollisionModel::Impl>();
-  model->robot = cell.robot;
-  for (const RobotBody& body : cell.robot->bodies) {
-    model->robot_bodies.push_back(make_body(body.name, body.shapes));
+  if (same_robot != nullptr) {
+    if (same_robot->impl().robot != cell.robot) {
+      throw InvalidInput("E_REF", "same_robot", "is a model of another robot");
+    }
+    const CollisionModel::Impl& known = same_robot->impl();
+    model->robot = known.robot;
+    model->robot_bodies = known.robot_bodies;
+    model->self_pairs = known.self_pairs;
+    model->depth = known.depth;
+    model->is_finger = known.is_finger;
+  } else {
+    model->robot = cell.robot;
+    for (const RobotBody& body : cell.robot->bodies) {
+      model->robot_bodies.push_back(make_body(body.name, body.shapes));
+    }
+    find_depths(*model);
+    find_self_pairs(*model);
   }
   for (const Body& body : cell.fixtures)
     model->fixtures.push_back(make_body(body.name, body.shapes));
   for (const Body& body : cell.parts) model->parts.push_back(make_body(body.name, body.shapes));
-  find_depths(*model);
-  find_self_pairs(*model);
   return std::make_shared<const CollisionModel>(std::move(model));
 }
 

@@ -18,12 +18,17 @@ MotionBounds::MotionBounds(const CollisionChecker::Impl& checker)
   for (std::size_t m = 0; m < pieces_.size(); ++m) {
     const std::size_t depth = static_cast<std::size_t>(checker.movers[m].depth);
     pieces_[m].resize(checker.movers[m].geometry->pieces.size());
-    for (Entry& entry : pieces_[m]) entry.beyond.resize(depth + 1);
+    for (Entry& entry : pieces_[m]) {
+      entry.beyond.resize(depth + 1);
+      entry.distance.resize(depth);
+    }
     movers_[m].beyond.resize(depth + 1);
+    movers_[m].distance.resize(depth);
   }
 }
 
-void MotionBounds::set(const Eigen::VectorXd& half_turns, double half_slide) {
+void MotionBounds::set(const Eigen::VectorXd& half_turns, double half_slide, bool together) {
+  together_ = together;
   half_turns_ = half_turns;
   half_slide_ = half_slide;
   ++stamp_;
@@ -44,8 +49,12 @@ void MotionBounds::fill(Entry& entry, const Mover& mover,
   std::size_t d = static_cast<std::size_t>(mover.depth);
   entry.beyond[d] = motion;
   while (d-- > 0) {
-    const double turn = half_turns_[static_cast<Eigen::Index>(d)];
-    if (turn > 0.0) motion += (distance_from_axis(d) + motion) * turn;
+    const double turn = std::abs(half_turns_[static_cast<Eigen::Index>(d)]);
+    entry.distance[d] = 0.0;  // not asked for where the joint stands still
+    if (turn > 0.0) {
+      entry.distance[d] = distance_from_axis(d) + motion;
+      motion += entry.distance[d] * turn;
+    }
     entry.beyond[d] = motion;
   }
 }
@@ -55,7 +64,7 @@ MotionBounds::Entry& MotionBounds::piece_entry(int m, int p) {
   if (entry.stamp == stamp_) return entry;
   const OrientedBox& box = checker_.piece(m, p).box;
   const Pose X_RO = checker_.X_RM[static_cast<std::size_t>(m)] * box.X_BO;
-  std::array<Vector3d, 8> corners;
+  std::array<Vector3d, 8>& corners = entry.corners;
   for (std::size_t c = 0; c < 8; ++c) {
     const Vector3d corner((c & 1U) ? box.half.x() : -box.half.x(),
                           (c & 2U) ? box.half.y() : -box.half.y(),
@@ -103,6 +112,48 @@ double MotionBounds::approach(const PiecePair& pair) {
   const int common = std::min(checker_.movers[static_cast<std::size_t>(pair.mover)].depth,
                               checker_.movers[static_cast<std::size_t>(pair.other)].depth);
   return motion(pair.mover, pair.piece, common) + motion(pair.other, pair.other_piece, common);
+}
+
+double MotionBounds::piece_motion_along(int m, int p, int depth, const Vector3d& direction) {
+  const Entry& entry = piece_entry(m, p);
+  const Mover& mover = checker_.movers[static_cast<std::size_t>(m)];
+  const std::size_t first = static_cast<std::size_t>(depth);
+  const std::size_t last = static_cast<std::size_t>(mover.depth);
+  // Velocity along the direction, per joint, is linear in the point: c -> c.g + h. The absolute
+  // value of it, and of sums of it, is greatest at a corner.
+  std::array<double, 8> linear{};
+  std::array<double, 8> sum{};
+  double rest = mover.finger ? half_slide_ : 0.0;
+  double proximal = 0.0;
+  for (std::size_t j = first; j < last; ++j) {
+    const double turn = half_turns_[static_cast<Eigen::Index>(j)];
+    if (turn == 0.0) continue;
+    const Vector3d gradient = direction.cross(axes_[j]) * turn;
+    const double offset = gradient.dot(points_[j]);
+    for (std::size_t c = 0; c < 8; ++c) {
+      const double velocity = gradient.dot(entry.corners[c]) - offset;
+      sum[c] += velocity;
+      linear[c] += std::abs(velocity);
+    }
+    // Second derivatives: d2x / dqi dqj is no longer than the distance from the axis of the farther
+    // joint; half of the sum over all pairs.
+    const double size = std::abs(turn);
+    rest += entry.distance[j] * size * (0.5 * size + proximal);
+    proximal += size;
+  }
+  double most = 0.0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    most = std::max(most, together_ ? std::abs(sum[c]) : linear[c]);
+  }
+  return most + rest;
+}
+
+double MotionBounds::approach_along(const PiecePair& pair, const Vector3d& direction) {
+  if (pair.other < 0) return piece_motion_along(pair.mover, pair.piece, 0, direction);
+  const int common = std::min(checker_.movers[static_cast<std::size_t>(pair.mover)].depth,
+                              checker_.movers[static_cast<std::size_t>(pair.other)].depth);
+  return piece_motion_along(pair.mover, pair.piece, common, direction) +
+         piece_motion_along(pair.other, pair.other_piece, common, direction);
 }
 
 }  // namespace handey::collision

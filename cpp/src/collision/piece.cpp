@@ -233,8 +233,10 @@ bool has_piece_inside(const Polyhedral& a, const Pose& X_WA, const Polyhedral& b
 }  // namespace
 
 double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Pose& X_WB,
-                      double least, double enough) {
-  if (a.convex && b.convex) return convex_distance(a.hull, X_WA, b.hull, X_WB, least, enough);
+                      double least, double enough, Vector3d* apart) {
+  if (a.convex && b.convex) {
+    return convex_distance(a.hull, X_WA, b.hull, X_WB, least, enough, apart);
+  }
   const double boxes = convex_distance(a.hull, X_WA, b.hull, X_WB, 0.0, enough);
   if (boxes > enough) return boxes;
   const Polyhedral& mesh_a = a.polyhedral();

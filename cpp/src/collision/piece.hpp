@@ -58,9 +58,10 @@ using Pieces = std::vector<std::shared_ptr<const Piece>>;
 /// @throws InvalidInput for shapes that are wrong
 Pieces make_pieces(const std::vector<Shape>& shapes, const std::string& place);
 
-/// Lower bound of the distance of two pieces; same terms as convex_distance.
+/// Lower bound of the distance of two pieces; same terms as convex_distance. `apart` is left zero
+/// where no plane lies between them that far from both.
 double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Pose& X_WB,
-                      double least, double enough);
+                      double least, double enough, Eigen::Vector3d* apart = nullptr);
 
 /// Distance of a ball from a box; 0 or less where they overlap [m].
 inline double ball_to_box(const Eigen::Vector3d& centre, double radius, const Pose& X_WO,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "ends.hpp"
 #include "handey/errors.hpp"
@@ -25,6 +26,31 @@ std::string describe_edge(int goal, const EdgeResult& edge) {
   char text[48];
   std::snprintf(text, sizeof text, "straight to goal %d, at %.0f %%: ", goal, 100.0 * edge.at);
   return text + motion::describe(edge.hit);
+}
+
+bool is_arm_of_slices(const Robot& robot) { return robot.joints.size() >= 3; }
+
+MotionResult search_slices(CollisionChecker& checker, const Configuration& start,
+                           const std::vector<Configuration>& goals, const GrossOptions& options) {
+  MotionResult result;
+  result.planner = "slices";
+  if (!is_arm_of_slices(*checker.cell().robot)) {
+    result.reason = "slices need an arm of three joints or more";
+    return result;
+  }
+  if (options.search.max_proofs == 0) {
+    result.reason = "slices are switched off";
+    return result;
+  }
+  FreeSpace space(checker, start, goals, options.free_space);
+  SearchResult found = search_free_space(space, options.search);
+  result.iterations = found.proofs;
+  result.reason = std::move(found.reason);
+  if (!found.found) return result;
+  result.status = MotionStatus::Found;
+  result.goal = found.goal;
+  result.path = std::move(found.path);
+  return result;
 }
 
 }  // namespace
@@ -60,11 +86,21 @@ MotionResult plan_gross_motion(CollisionChecker& checker, const Configuration& s
 
   std::vector<Configuration> ordered;
   for (int goal : order) ordered.push_back(goals[static_cast<std::size_t>(goal)]);
-  result = plan_by_sampling(checker, start, ordered, options.sampling);
+  result = search_slices(checker, start, ordered, options);
   if (!result.found()) {
-    result.reason = obstruction + "; " + result.reason;
-    return result;
+    const std::string slices_reason = result.reason;
+    result = plan_by_sampling(checker, start, ordered, options.sampling);
+    result.slices_reason = slices_reason;
+    if (!result.found()) {
+      const std::string sampling_reason = result.reason;
+      const Separation separation = is_arm_of_slices(robot)
+                                        ? prove_apart(checker, start, ordered, options.separation)
+                                        : Separation{};
+      if (separation.apart) result.status = MotionStatus::Infeasible;
+      result.reason = obstruction + "; " + (separation.apart ? separation.reason : sampling_reason);
+    }
   }
+  if (!result.found()) return result;
   result.goal = order[static_cast<std::size_t>(result.goal)];
   result.path = shorten_path(checker, result.path, options.shortcut);
   return result;

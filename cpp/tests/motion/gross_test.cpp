@@ -1,5 +1,5 @@
-// Claims about gross motion: straight where that is free, by sampling where not, nearest goal
-// first, and why it fails.
+// Claims about gross motion: straight where that is free, through slices where not, by sampling
+// where these fail, nearest goal first, and why it fails.
 #include "handey/motion/gross.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ TEST(Gross, FoldsTheArmToPassAPost) {
   CollisionChecker checker = checker_of(cell_with_post());
   const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()});
   ASSERT_TRUE(result.found()) << result.reason;
-  EXPECT_EQ(result.planner, "RRT-Connect");
+  EXPECT_EQ(result.planner, "slices");
+  EXPECT_EQ(result.slices_reason, "");
   EXPECT_GE(result.path.size(), 3u);
   EXPECT_EQ(result.path.front().q, below_post().q);
   EXPECT_EQ(result.path.back().q, above_post().q);
@@ -74,8 +75,31 @@ TEST(Gross, CarriesAPartClearOfWhatTheEmptyHandPasses) {
   CollisionChecker holding = checker_of(cell.with_held(0, at(0.0, 0.0, 0.14)));
   const MotionResult with = plan_gross_motion(holding, start, {goal});
   ASSERT_TRUE(with.found()) << with.reason;
-  EXPECT_EQ(with.planner, "RRT-Connect");
+  EXPECT_EQ(with.planner, "slices");
   expect_free(holding, with.path);
+}
+
+TEST(Gross, FallsBackToSamplingAndSaysWhy) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  GrossOptions options;
+  options.search.max_proofs = 0;
+  const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()}, options);
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.planner, "RRT-Connect");
+  EXPECT_EQ(result.slices_reason, "slices are switched off");
+  EXPECT_TRUE(certify_path(checker, result.path).is_free());
+}
+
+TEST(Gross, ProvesThatThereIsNoWay) {
+  CollisionChecker checker = checker_of(
+      planar_cell({wall("left", {0.9, 0.02}, 0.5, 0.08), wall("right", {0.9, 0.02}, 0.5, -0.08)}));
+  GrossOptions options;
+  options.sampling.max_iterations = 60;
+  const MotionResult result =
+      plan_gross_motion(checker, configuration(0, 0, 0), {configuration(1.5, 0, 0)}, options);
+  EXPECT_EQ(result.status, MotionStatus::Infeasible);
+  EXPECT_NE(result.reason.find("left"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("8 degrees"), std::string::npos) << result.reason;
 }
 
 TEST(Gross, SaysWhatIsInTheWayWhenItFindsNoWay) {
@@ -83,11 +107,13 @@ TEST(Gross, SaysWhatIsInTheWayWhenItFindsNoWay) {
       planar_cell({wall("left", {0.9, 0.02}, 0.5, 0.08), wall("right", {0.9, 0.02}, 0.5, -0.08)}));
   GrossOptions options;
   options.sampling.max_iterations = 60;
+  options.separation.most_cells = 1;
   const MotionResult result =
       plan_gross_motion(checker, configuration(0, 0, 0), {configuration(1.5, 0, 0)}, options);
   EXPECT_EQ(result.status, MotionStatus::IterationLimit);
   EXPECT_NE(result.reason.find("left"), std::string::npos) << result.reason;
   EXPECT_NE(result.reason.find("60"), std::string::npos) << result.reason;
+  EXPECT_FALSE(result.slices_reason.empty());
 }
 
 TEST(Gross, ReportsBlockedEnds) {

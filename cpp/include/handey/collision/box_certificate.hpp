@@ -25,13 +25,18 @@ struct ConfigurationBox {
   Eigen::VectorXd half;
 };
 
+/// A pair that is not proved yet, and the direction along which its first piece lay beyond its
+/// second when it was last looked at (zero: none is known), which mostly still holds near by.
+struct NearPair {
+  PiecePair pair;
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+};
+
 struct BoxProof {
-  /// Every configuration within scale * half of the centre is proved free, joint by joint (at most
-  /// `most_scale`); 1 or more: the whole box. 0: not even the centre.
-  double scale = 0.0;
-  bool is_free() const { return scale >= 1.0; }
-  bool collides = false;        ///< the centre itself is not free
-  std::vector<PiecePair> near;  ///< the pairs not proved for the whole box
+  bool free = false;           ///< every configuration of the box is free
+  bool collides = false;       ///< the centre itself was found not to be free
+  std::vector<NearPair> near;  ///< pairs not proved for the whole box, or not looked at; the one
+                               ///< that failed first
 };
 
 /// One worker on a checker, which it places; not to be shared between threads.
@@ -42,10 +47,10 @@ class BoxProver {
   ~BoxProver();
   BoxProver(BoxProver&&) noexcept;
 
-  /// Looks at all pairs that are checked.
-  BoxProof prove(const ConfigurationBox& box, double most_scale = 1.0);
+  /// Looks at all pairs that are checked, until one fails.
+  BoxProof prove(const ConfigurationBox& box);
   /// Looks at these pairs only: those that were left near for a box that contains this one.
-  BoxProof prove(const ConfigurationBox& box, const std::vector<PiecePair>& near);
+  BoxProof prove(const ConfigurationBox& box, const std::vector<NearPair>& near);
   /// Looks only at pairs that the joints before `joint` do not move against each other (hand
   /// against forearm, hand against itself), and splits the box until it is proved or `evaluations`
   /// are spent.

@@ -1,14 +1,22 @@
 // Gross motion of the whole arm, hand empty or part in hand: the straight edge if it is free, else
-// sampling; then shortened, every edge certified again. Not guaranteed: a way that exists is found
-// within the sampling's budget. Article: "Global planning", steps 5 and 6.
+// through slices of configuration space, one with the wrist at its start values, one with it at the
+// goal's, one with it anywhere between; then shortened, every edge certified. Where the slices give
+// no way: a proof that there is none, or sampling. Not guaranteed: a way that exists is found
+// within the budgets of search and sampling. "Infeasible" is proved. Article: "Global planning",
+// steps 5 and 6, Figure 7.
 #pragma once
 
+#include "handey/cspace/search.hpp"
+#include "handey/cspace/separation.hpp"
 #include "handey/motion/sampling.hpp"
 #include "handey/motion/shortcut.hpp"
 
 namespace handey {
 
 struct GrossOptions {
+  FreeSpaceOptions free_space;
+  SearchOptions search;  ///< max_proofs = 0: sampling at once where no straight edge is free
+  SeparationOptions separation;
   SamplingOptions sampling;
   ShortcutOptions shortcut;
 };

@@ -17,19 +17,26 @@ namespace handey {
 
 struct SamplingOptions {
   std::uint64_t seed = 0;
-  int max_iterations = 4000;  ///< states sampled, at least 1
-  double range = 0.6;         ///< longest tree edge, in the weighted metric [rad]
+  int max_iterations = 10000;  ///< states sampled, at least 1
+  double range = 0.6;          ///< longest tree edge, in the weighted metric [rad]
   CertificateOptions certificate;
 };
 
-enum class MotionStatus { Found, StartBlocked, GoalsBlocked, IterationLimit };
+enum class MotionStatus {
+  Found,
+  StartBlocked,
+  GoalsBlocked,
+  IterationLimit,
+  Infeasible  ///< proved: no path leads from the start to any goal that is free
+};
 
 struct MotionResult {
   MotionStatus status = MotionStatus::IterationLimit;
   std::vector<Configuration> path;  ///< from the start to goals[goal]; every edge certified
   int goal = -1;                    ///< which goal was reached
-  int iterations = 0;               ///< states sampled
-  std::string planner;              ///< "straight", "RRT-Connect"
+  int iterations = 0;               ///< states sampled, or boxes of the slices looked at
+  std::string planner;              ///< "straight", "slices", "RRT-Connect"
+  std::string slices_reason;        ///< why the slices gave no way, if they were searched in vain
   std::string reason;               ///< why not found, with names and numbers
   bool found() const { return status == MotionStatus::Found; }
 };

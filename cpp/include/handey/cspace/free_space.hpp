@@ -1,0 +1,113 @@
+// The free space of one gross motion: slices over the first three joints, linked. The wrist stands
+// at its start values in the start's slice, at a goal's values in the goal's slice, and is anywhere
+// between in the range slice that links the two; where the range is too wide, it is split. One more
+// slice has the wrist as at home. Each slice is a tree of boxes: coarse cells, split on demand
+// where they are not proved free as a whole, down to the finest cells within a window round the
+// ends, and to coarser ones elsewhere. Conservative: a box called free is free for every
+// configuration in it (BoxProver). What is not called free may be free. Serves any arm of three
+// joints or more. Article: "Global planning", Figure 7: I, I', F', F.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "handey/collision/box_certificate.hpp"
+#include "handey/cspace/lattice.hpp"
+#include "handey/cspace/slice.hpp"
+
+namespace handey {
+
+struct FreeSpaceOptions {
+  int window_level = 3;     ///< finest level within the windows: 3 is 1 degree (article)
+  int outer_level = 1;      ///< finest level of the ends' slices outside their windows
+  int range_level = 1;      ///< finest level of the range slices
+  int home_level = 1;       ///< finest level of the slice with the wrist as at home
+  int wrist_splits = 3;     ///< the wrist's range is halved at most so often
+  double clearance = 1e-4;  ///< least distance proved [m]
+  std::shared_ptr<const ArmTable> table;  ///< for the whole range slice; null: by proofs alone
+};
+
+/// The first three joints and how far the wrist is from start (0) to goal (1).
+using SlicePoint = std::array<double, 4>;
+
+/// A box of one slice: a node of its tree. Bounds in units of the finest cells and of the finest
+/// wrist interval.
+struct SliceBox {
+  enum class State : unsigned char { Unknown, Free, NotProved };
+  std::array<int, 4> lower{}, upper{};
+  int slice = 0;  ///< 0: start; 1 + 2 g: range to goal g; 2 + 2 g: goal g; the last: home
+  int level = 0, wrist_level = 0;
+  State state = State::Unknown;
+  bool centre_collides = false;
+  int first_child = -1, children = 0;
+  bool has_near = false;
+  std::vector<NearPair> near;  ///< pairs that its parts need to look at
+};
+
+/// Trees of boxes, made and proved when asked for. Keeps a reference to the checker.
+class FreeSpace {
+ public:
+  /// @throws InvalidInput (E_DOF, E_RANGE) for arms of fewer than three joints, or options out of
+  /// range
+  FreeSpace(CollisionChecker& checker, const Configuration& start,
+            const std::vector<Configuration>& goals, const FreeSpaceOptions& options = {});
+  ~FreeSpace();
+
+  int slices() const { return 2 + 2 * static_cast<int>(goals_.size()); }
+  /// The slice with the wrist as at home.
+  int home_slice() const { return slices() - 1; }
+  bool is_range(int slice) const { return slice % 2 == 1 && slice != home_slice(); }
+  static int goal_of(int slice) { return (slice - 1) / 2; }
+  const Configuration& start() const { return start_; }
+  const std::vector<Configuration>& goals() const { return goals_; }
+  CollisionChecker& checker() { return checker_; }
+
+  /// Half width of the windows of the finest cells round the ends [rad].
+  void set_window(double half_width) { window_ = half_width; }
+
+  const SliceBox& box(int index) const { return boxes_[static_cast<std::size_t>(index)]; }
+  int size() const { return static_cast<int>(boxes_.size()); }
+  int proofs() const { return proofs_; }
+
+  /// Proves the box, or fails to, once.
+  SliceBox::State prove(int index);
+  /// Splits a box that is not proved, if it may be split: its children, else none.
+  bool split(int index);
+  /// The coarsest box of a slice at these cells of level 0, or -1 outside the joints' ranges.
+  int root(int slice, const CellIndex& cell);
+  /// The cell of level 0 of a point.
+  CellIndex cell_of(const SlicePoint& point) const;
+  /// Proves and splits down to the box that holds the point: free, or the finest that is not; -1
+  /// outside the ranges.
+  int box_at(int slice, const SlicePoint& point);
+
+  SlicePoint lower(const SliceBox& box) const { return real(box.lower); }
+  SlicePoint upper(const SliceBox& box) const { return real(box.upper); }
+  Configuration configuration(int slice, const SlicePoint& point) const;
+  SlicePoint start_point() const;
+  SlicePoint goal_point(int goal) const;
+  /// Width of a finest cell [rad].
+  double finest(int joint) const { return lattice_.cell_width(Lattice::kLevels - 1, joint); }
+
+ private:
+  SlicePoint real(const std::array<int, 4>& units) const;
+  bool may_split_cells(const SliceBox& box) const;
+  bool prefers_wrist(const SliceBox& box) const;
+  double bound(const SliceBox& box, bool wrist) const;
+  void add_children(int index, bool wrist);
+
+  CollisionChecker& checker_;
+  BoxProver prover_;
+  FreeSpaceOptions options_;
+  Configuration start_;
+  std::vector<Configuration> goals_;
+  Lattice lattice_;
+  std::vector<double> reach_;  ///< per joint: how far a point of the hand can be from its axis [m]
+  std::vector<std::vector<int>> roots_;  ///< per slice, by cell of level 0; -1: not made
+  std::vector<SliceBox> boxes_;
+  double window_ = 0.0;
+  int proofs_ = 0;
+};
+
+}  // namespace handey
