@@ -148,15 +148,15 @@ TEST(Certificate, AClosingFingerIsBoundedByHalfTheOpening) {
 }
 
 TEST(Certificate, APassageNarrowerThanTheResolutionIsGivenUp) {
-  // The edge slides past a plate at 0.15 mm: more than the clearance, too little to prove at a
-  // coarse resolution.
+  // The edge slides past the foot of a mesh that is not convex at 0.15 mm: more than the clearance,
+  // too little to prove at a coarse resolution. (Between convex bodies a plane would do.)
   Cell cell = puma_cell();
   cell.fixtures.clear();
   cell.parts.clear();
   const Pose X_WH = hand_in_world(cell, cell.start.q);
-  cell.fixtures.push_back(
-      box_body("plate", {0.6, 0.6, 0.02},
-               at(X_WH.translation().x(), X_WH.translation().y(), X_WH.translation().z() + 0.03)));
+  cell.fixtures.push_back(mesh_body(
+      "plate", l_mesh(0.6, 0.05),
+      at(X_WH.translation().x() - 0.3, X_WH.translation().y(), X_WH.translation().z() + 0.03)));
   const auto model = make_collision_model(cell);
   const double gap = CollisionChecker(model, cell).closest(cell.start).distance;
   cell.fixtures[0].X_WB.translation().z() -= gap - 1.5e-4;
