@@ -57,7 +57,7 @@ def test_lifts_the_arm_over_a_wall(checker):
     result = _core.plan_gross_motion(checker, stretched(0.9), [stretched(-1.2), stretched(-0.9)])
     assert result.found and result
     assert result.status == _core.MotionStatus.Found
-    assert (result.planner, result.goal) == ("RRT-Connect", 1)
+    assert (result.planner, result.goal) == ("slices", 1)
     path = rows(result.path)
     assert np.array_equal(path[0], rows([stretched(0.9)])[0])
     assert np.array_equal(path[-1], rows([stretched(-0.9)])[0])

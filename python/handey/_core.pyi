@@ -36,6 +36,7 @@ __all__: list[str] = [
     "FeatureOptions",
     "FeaturePairs",
     "FingerJoint",
+    "FreeSpaceOptions",
     "GraspPose",
     "GraspScene",
     "Gripper",
@@ -83,6 +84,8 @@ __all__: list[str] = [
     "SceneMover",
     "SceneObstacle",
     "SceneOptions",
+    "SearchOptions",
+    "SearchResult",
     "Separation",
     "SeparationOptions",
     "Shape",
@@ -152,6 +155,7 @@ __all__: list[str] = [
     "quaternion_xyzw",
     "rank_grasps",
     "robot_overlaps",
+    "search_free_space",
     "shorten_path",
     "slab_projection",
     "slide_to_target",
@@ -2536,14 +2540,14 @@ class SamplingOptions:
         self,
         *,
         seed: typing.SupportsInt | typing.SupportsIndex = 0,
-        max_iterations: typing.SupportsInt | typing.SupportsIndex = 4000,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 10000,
         range: typing.SupportsFloat | typing.SupportsIndex = 0.6,
         certificate: CertificateOptions = ...,
     ) -> None: ...
     @property
     def max_iterations(self) -> int:
         """
-        States sampled.
+        States sampled, or boxes of the slices looked at.
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -2575,10 +2579,13 @@ class MotionStatus:
       GoalsBlocked
 
       IterationLimit
+
+      Infeasible : Proved: no path leads to any free goal.
     """
 
     Found: typing.ClassVar[MotionStatus]
     GoalsBlocked: typing.ClassVar[MotionStatus]
+    Infeasible: typing.ClassVar[MotionStatus]
     IterationLimit: typing.ClassVar[MotionStatus]
     StartBlocked: typing.ClassVar[MotionStatus]
     __members__: typing.ClassVar[dict[str, MotionStatus]]
@@ -2618,7 +2625,7 @@ class MotionResult:
     @property
     def iterations(self) -> int:
         """
-        States sampled.
+        States sampled, or boxes of the slices looked at.
         """
     @property
     def path(self) -> list[Configuration]:
@@ -2628,12 +2635,17 @@ class MotionResult:
     @property
     def planner(self) -> str:
         """
-        'straight' or 'RRT-Connect'.
+        'straight', 'slices' or 'RRT-Connect'.
         """
     @property
     def reason(self) -> str:
         """
         Why not found, with names and numbers.
+        """
+    @property
+    def slices_reason(self) -> str:
+        """
+        Why the slices gave no way, where they were searched in vain.
         """
     @property
     def status(self) -> MotionStatus: ...
@@ -2674,16 +2686,153 @@ class ShortcutOptions:
     @seed.setter
     def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
 
+class FreeSpaceOptions:
+    """
+    The slices of one gross motion.
+    """
+    def __init__(
+        self,
+        *,
+        window_level: typing.SupportsInt | typing.SupportsIndex = 3,
+        outer_level: typing.SupportsInt | typing.SupportsIndex = 1,
+        range_level: typing.SupportsInt | typing.SupportsIndex = 1,
+        home_level: typing.SupportsInt | typing.SupportsIndex = 1,
+        wrist_splits: typing.SupportsInt | typing.SupportsIndex = 3,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        Least distance proved [m].
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def home_level(self) -> int:
+        """
+        Finest level of the slice with the wrist as at home.
+        """
+    @home_level.setter
+    def home_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def outer_level(self) -> int:
+        """
+        Finest level of the ends' slices outside their windows.
+        """
+    @outer_level.setter
+    def outer_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def range_level(self) -> int:
+        """
+        Finest level of the slices over the wrist's range.
+        """
+    @range_level.setter
+    def range_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def window_level(self) -> int:
+        """
+        Finest level within the windows round the ends: 0 is 8 degrees, 3 is 1.
+        """
+    @window_level.setter
+    def window_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def wrist_splits(self) -> int:
+        """
+        The wrist's range is halved at most so often.
+        """
+    @wrist_splits.setter
+    def wrist_splits(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class SearchOptions:
+    """
+    The search through the slices.
+    """
+    def __init__(
+        self,
+        *,
+        windows: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [0.6, 1.2],
+        max_proofs: typing.SupportsInt | typing.SupportsIndex = 8000,
+        detour: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    @property
+    def detour(self) -> float:
+        """
+        Weight of the estimate, 1 or more.
+        """
+    @detour.setter
+    def detour(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_proofs(self) -> int:
+        """
+        Boxes proved at most; 0: the slices are not searched.
+        """
+    @max_proofs.setter
+    def max_proofs(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def windows(self) -> list[float]:
+        """
+        Half widths of the windows of finest cells, one after the other [rad].
+        """
+    @windows.setter
+    def windows(
+        self, arg0: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+
+class SearchResult:
+    """
+    A way through the slices, or why there is none.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def found(self) -> bool: ...
+    @property
+    def goal(self) -> int:
+        """
+        Which goal was reached, -1 for none.
+        """
+    @property
+    def path(self) -> list[Configuration]:
+        """
+        Configurations from start to goal.
+        """
+    @property
+    def proofs(self) -> int:
+        """
+        Boxes looked at.
+        """
+    @property
+    def reason(self) -> str: ...
+    @property
+    def window(self) -> float:
+        """
+        Half width that sufficed [rad].
+        """
+
 class GrossOptions:
     """
     Options of plan_gross_motion.
     """
 
+    free_space: FreeSpaceOptions
     sampling: SamplingOptions
+    separation: SeparationOptions
     shortcut: ShortcutOptions
     def __init__(
-        self, *, sampling: SamplingOptions = ..., shortcut: ShortcutOptions = ...
+        self,
+        *,
+        free_space: FreeSpaceOptions = ...,
+        search: SearchOptions = ...,
+        separation: SeparationOptions = ...,
+        sampling: SamplingOptions = ...,
+        shortcut: ShortcutOptions = ...,
     ) -> None: ...
+    @property
+    def search(self) -> SearchOptions:
+        """
+        max_proofs = 0: sampling at once where no straight edge is free.
+        """
+    @search.setter
+    def search(self, arg0: SearchOptions) -> None: ...
 
 class BlockedProof:
     """
@@ -3362,7 +3511,9 @@ def plan_gross_motion(
     options: GrossOptions = ...,
 ) -> MotionResult:
     """
-    Plan a gross motion: straight if that is free, else by sampling; then shortened.
+    Plan a gross motion: straight if free, else through slices, else by sampling; then shortened.
+
+    Where sampling gives no way either, a proof that there is none is tried.
 
     The goal nearest by travel time is tried first; goals in collision are left out.
 
@@ -3541,6 +3692,30 @@ def robot_overlaps(
 ) -> list[Hit]:
     """
     Pairs of robot or held part and others that overlap deeper than tolerance [m].
+    """
+
+def search_free_space(
+    checker: CollisionChecker,
+    start: Configuration,
+    goals: collections.abc.Sequence[Configuration],
+    slices: FreeSpaceOptions = ...,
+    options: SearchOptions = ...,
+) -> SearchResult:
+    """
+    Search the slices of a gross motion for a way: not shortened yet.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held.
+        start: Configuration.
+        goals: list of Configuration with the start's opening; any of them will do.
+        slices: FreeSpaceOptions.
+        options: SearchOptions.
+
+    Returns:
+        SearchResult.
+
+    Raises:
+        InvalidInput: for arms of fewer than three joints, wrong lengths or options.
     """
 
 def shorten_path(

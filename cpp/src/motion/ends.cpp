@@ -49,4 +49,15 @@ std::string describe(const Hit& hit) {
   return hit.a + " is " + text + " mm from " + hit.b;
 }
 
+void require_options(const SamplingOptions& options) {
+  if (options.max_iterations < 1) {
+    throw InvalidInput("E_RANGE", "max_iterations",
+                       std::to_string(options.max_iterations) + ", expected 1 or more");
+  }
+  if (!(std::isfinite(options.range) && options.range > 0.0)) {
+    throw InvalidInput("E_RANGE", "range",
+                       std::to_string(options.range) + " rad, expected a finite number > 0");
+  }
+}
+
 }  // namespace handey::motion

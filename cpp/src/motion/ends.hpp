@@ -14,6 +14,9 @@ namespace handey::motion {
 void require_ends(const Robot& robot, const Configuration& start,
                   const std::vector<Configuration>& goals);
 
+/// @throws InvalidInput (E_RANGE) for options out of range
+void require_options(const SamplingOptions& options);
+
 /// Which goals are free, in the order given; none if the start or all goals are blocked.
 struct FreeEnds {
   MotionStatus status = MotionStatus::Found;

@@ -60,6 +60,7 @@ MotionResult plan_gross_motion(CollisionChecker& checker, const Configuration& s
                                const GrossOptions& options) {
   const Robot& robot = *checker.cell().robot;
   motion::require_ends(robot, start, goals);
+  motion::require_options(options.sampling);
   const CertificateOptions& certificate = options.sampling.certificate;
   MotionResult result;
   result.planner = "straight";

@@ -210,17 +210,6 @@ ob::RealVectorBounds bounds(const Robot& robot, const Configuration& start,
   return result;
 }
 
-void require_valid(const SamplingOptions& options) {
-  if (options.max_iterations < 1) {
-    throw InvalidInput("E_RANGE", "max_iterations",
-                       std::to_string(options.max_iterations) + ", expected 1 or more");
-  }
-  if (!(std::isfinite(options.range) && options.range > 0.0)) {
-    throw InvalidInput("E_RANGE", "range",
-                       std::to_string(options.range) + " rad, expected a finite number > 0");
-  }
-}
-
 // The states of an exact solution; empty if there is none.
 std::vector<Configuration> run_rrt_connect(Search& search, const Configuration& start,
                                            const std::vector<Configuration>& goals) {
@@ -270,7 +259,7 @@ std::vector<Configuration> run_rrt_connect(Search& search, const Configuration& 
 MotionResult plan_by_sampling(CollisionChecker& checker, const Configuration& start,
                               const std::vector<Configuration>& goals,
                               const SamplingOptions& options) {
-  require_valid(options);
+  motion::require_options(options);
   motion::require_ends(*checker.cell().robot, start, goals);
   MotionResult result;
   result.planner = "RRT-Connect";

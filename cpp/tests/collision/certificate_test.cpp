@@ -156,13 +156,16 @@ TEST(Certificate, APassageNarrowerThanTheResolutionIsGivenUp) {
   const Pose X_WH = hand_in_world(cell, cell.start.q);
   cell.fixtures.push_back(mesh_body(
       "plate", l_mesh(0.6, 0.05),
-      at(X_WH.translation().x() - 0.3, X_WH.translation().y(), X_WH.translation().z() + 0.03)));
+      at(X_WH.translation().x() - 0.3, X_WH.translation().y(), X_WH.translation().z() + 0.02)));
   const auto model = make_collision_model(cell);
-  const double gap = CollisionChecker(model, cell).closest(cell.start).distance;
+  const Hit nearest = CollisionChecker(model, cell).closest(cell.start);
+  ASSERT_EQ(nearest.b, "plate");
+  const double gap = nearest.distance;
   cell.fixtures[0].X_WB.translation().z() -= gap - 1.5e-4;
   CollisionChecker checker(model, cell);
   Configuration turned = cell.start;
   turned.q[5] += 0.5;  // about the vertical: the gap stays
+  ASSERT_NEAR(checker.closest(cell.start).distance, 1.5e-4, 2e-5);
   CertificateOptions options;
   options.resolution = 1e-3;
   EXPECT_EQ(certify_edge(checker, cell.start, turned, options).status, EdgeStatus::GivenUp);
