@@ -29,9 +29,9 @@ def parsed(figure: Figure) -> ElementTree.Element:
 def covered(path: str, shape: tuple[int, int], scale: float = 10.0) -> np.ndarray:
     """How often the rectangles of a raster's path cover each cell of (rows, columns), y up."""
     count = np.zeros(shape, dtype=int)
-    for entry in re.findall(r"M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)", path):
-        x, y, width, height = (round(float(value) / scale) for value in entry)
-        count[shape[0] - y - height : shape[0] - y, x : x + width] += 1
+    for entry in re.findall(r"M([\d.]+) ([\d.]+)H([\d.]+)V([\d.]+)", path):
+        left, top, right, bottom = (round(float(value) / scale) for value in entry)
+        count[shape[0] - bottom : shape[0] - top, left:right] += 1
     return count
 
 
@@ -48,7 +48,7 @@ def test_a_raster_covers_each_cell_of_a_kind_once(seed: int) -> None:
 def test_equal_rows_are_merged_into_one_rectangle() -> None:
     drawn = Cells(np.ones((20, 10), dtype=int), (0, 0), UNIT, [Paint(), Paint("#111111")])
     (path,) = drawn.svg(panel().to_picture)
-    assert path.count("M") == 1 and "h100v200" in path
+    assert path.count("M") == 1 and "M0 0H100V200H0z" in path
 
 
 def test_y_grows_upwards_and_equal_scales_give_the_height() -> None:

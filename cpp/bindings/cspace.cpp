@@ -383,6 +383,7 @@ void bind_cspace(py::module_& m) {
   bind_planar_arm(m);
   bind_separation(m);
   bind_slice(m);
+  bind_layer(m);
   bind_free_space(m);
 }
 

@@ -25,6 +25,7 @@ __all__: list[str] = [
     "Box",
     "BumpLine",
     "Cell",
+    "CellKind",
     "CertificateOptions",
     "CollisionChecker",
     "CollisionModel",
@@ -52,6 +53,7 @@ __all__: list[str] = [
     "InverseStatus",
     "JointLimit",
     "Lattice",
+    "LayerOptions",
     "LegalGrasps",
     "LegalityOptions",
     "LoadedMesh",
@@ -93,6 +95,7 @@ __all__: list[str] = [
     "SingularityMargin",
     "Slab",
     "Slice",
+    "SliceLayer",
     "SliceMode",
     "SliceOptions",
     "SlideResult",
@@ -152,6 +155,7 @@ __all__: list[str] = [
     "pose_from_xyz_quat",
     "pose_from_xyz_rpy",
     "prove_apart",
+    "prove_layer",
     "quaternion_xyzw",
     "rank_grasps",
     "robot_overlaps",
@@ -3070,6 +3074,84 @@ class WristRange:
     @property
     def upper(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
+class CellKind:
+    """
+    What is known of a cell.
+
+    Members:
+
+      Free
+
+      NotProved
+
+      Collides
+    """
+
+    Collides: typing.ClassVar[CellKind]
+    Free: typing.ClassVar[CellKind]
+    NotProved: typing.ClassVar[CellKind]
+    __members__: typing.ClassVar[dict[str, CellKind]]
+    @typing.overload
+    def __eq__(self, other: CellKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: CellKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class SliceLayer:
+    """
+    The cells of a slice at one waist angle.
+    """
+    @property
+    def kinds(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        (cells of theta3, cells of theta2) of the values of CellKind.
+        """
+    @property
+    def theta1(self) -> float:
+        """
+        Middle of the layer [rad].
+        """
+
+class LayerOptions:
+    """
+    Options of prove_layer.
+    """
+    def __init__(
+        self,
+        *,
+        level: typing.SupportsInt | typing.SupportsIndex = 3,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        Least distance proved [m].
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def level(self) -> int:
+        """
+        Of the lattice: 3 is 1 degree.
+        """
+    @level.setter
+    def level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
 def arm_plane(robot: Robot) -> tuple[ArmPlane | None, str]:
     """
     The arm's plane, if its second and third axes are parallel.
@@ -3888,3 +3970,30 @@ def unite(regions: collections.abc.Sequence[Region]) -> Region:
     """
 
 __version__: str = "0.1.0"
+
+def prove_layer(
+    checker: CollisionChecker,
+    theta1: typing.SupportsFloat | typing.SupportsIndex,
+    wrist: WristRange,
+    opening: typing.SupportsFloat | typing.SupportsIndex,
+    options: LayerOptions = ...,
+) -> SliceLayer:
+    """
+    Look at one layer of a slice: which cells are proved free, and which collide.
+
+    A cell called free is free for every configuration in it and every wrist value of the range.
+
+    Args:
+        checker: of the cell, with what is held.
+        theta1: any waist angle of the layer [rad].
+        wrist: WristRange.
+        opening: distance between the pads [m].
+        options: LayerOptions.
+
+    Returns:
+        SliceLayer.
+
+    Raises:
+        InvalidInput: for a waist angle outside its limits, a wrist range of the wrong length or not in
+            order, an opening that is not the gripper's, or options out of range.
+    """

@@ -1,4 +1,4 @@
-"""The command `handey`: plan a cell's task, check a plan, show one.
+"""The command `handey`: plan a cell's task, check a plan, show one, draw slices.
 
 Results go to standard output, faults and warnings to standard error. Exit status: 0 done; 1 the
 plan is not valid; 2 bad input, each fault one line `handey: FILE: PLACE: what is wrong`; 3 no plan
@@ -27,6 +27,7 @@ from handey.commands import (
     view_command,
 )
 from handey.errors import InvalidInput
+from handey.slice_command import slice_command
 from handey.terminal import complain
 
 __all__ = ["main", "run"]
@@ -102,10 +103,7 @@ def parser() -> argparse.ArgumentParser:
     plan.add_argument(
         "-o", "--output", metavar="PLAN", help="plan file (default: name of CELL + .plan.json)"
     )
-    plan.add_argument(
-        "--seed", type=_seed, default=0, metavar="N", help="of every random choice (default 0)"
-    )
-    plan.add_argument("--deadline", type=_deadline, metavar="S", help="give up after S seconds")
+    _add_planning(plan)
     plan.set_defaults(run=plan_command)
 
     check = commands.add_parser(
@@ -115,6 +113,35 @@ def parser() -> argparse.ArgumentParser:
     check.add_argument("plan", metavar="PLAN", help="plan file (JSON)")
     check.set_defaults(run=check_command)
 
+    slices = commands.add_parser(
+        "slice", help="draw slices of the configuration space of a motion", allow_abbrev=False
+    )
+    slices.add_argument("cell", metavar="CELL", help="cell file (YAML)")
+    slices.add_argument(
+        "-o", "--output", metavar="SVG", help="picture (default: name of CELL + .slice.svg)"
+    )
+    slices.add_argument(
+        "--plan", metavar="PLAN", help="plan file (JSON) of the motion (default: plan the task)"
+    )
+    slices.add_argument(
+        "--step", type=int, metavar="N", help="the gross motion (default: the first of the plan)"
+    )
+    slices.add_argument(
+        "--theta1",
+        type=_angle,
+        nargs="+",
+        metavar="DEG",
+        help="waist angles (default: of the start, half way, of the goal)",
+    )
+    slices.add_argument(
+        "--wrist",
+        choices=("start", "range", "goal"),
+        nargs="+",
+        help="wrist as at the start, anywhere between, as at the goal (default: all three)",
+    )
+    _add_planning(slices)
+    slices.set_defaults(run=slice_command)
+
     view = commands.add_parser(
         "view", help="write a page that shows a cell or plays a plan", allow_abbrev=False
     )
@@ -123,7 +150,7 @@ def parser() -> argparse.ArgumentParser:
     view.add_argument("-o", "--output", metavar="HTML", help="page (default: name of CELL + .html)")
     view.set_defaults(run=view_command)
 
-    for command in (plan, check, view):
+    for command in (plan, check, slices, view):
         if command is not view:
             command.add_argument(
                 "--json", action="store_true", help="print the summary as one JSON object"
@@ -134,6 +161,23 @@ def parser() -> argparse.ArgumentParser:
             "--verbose", action="store_true", help="print more, and where an error arose"
         )
     return top
+
+
+def _add_planning(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--seed", type=_seed, default=0, metavar="N", help="of every random choice (default 0)"
+    )
+    command.add_argument("--deadline", type=_deadline, metavar="S", help="give up after S seconds")
+
+
+def _angle(text: str) -> float:
+    try:
+        degrees = float(text)
+    except ValueError:
+        degrees = math.nan
+    if not math.isfinite(degrees):
+        raise argparse.ArgumentTypeError(f"expected a number of degrees, found '{text}'")
+    return degrees
 
 
 def _seed(text: str) -> int:

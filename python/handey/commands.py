@@ -26,7 +26,14 @@ if TYPE_CHECKING:
     from handey.check import CheckReport
     from handey.planner import PlanResult
 
-__all__ = ["check_command", "plan_command", "view_command", "within"]
+__all__ = [
+    "check_command",
+    "deadline_passed",
+    "keep_inputs",
+    "plan_command",
+    "view_command",
+    "within",
+]
 
 OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3, 70, 124, 130
 INPUT_KINDS = (".yaml", ".yml", ".urdf", ".stl", ".obj", ".ply", ".npy", ".png")
@@ -45,11 +52,11 @@ def plan_command(options: argparse.Namespace) -> int:
     start = time.monotonic()
     output = Path(options.output or f"{Path(options.cell).stem}.plan.json")
     require_writable(output)
-    _keep_inputs([options.cell], output)
+    keep_inputs([options.cell], output)
     try:
         cell, result, checked = within(options.deadline, lambda: _plan_and_check(options, start))
     except DeadlinePassedError:
-        return _deadline_passed(options, start)
+        return deadline_passed(options, start)
     summary = plan_summary(cell, result, checked)
     if result.plan is None:
         tell(options, summary, no_plan_lines(cell, result, options.verbose))
@@ -115,7 +122,8 @@ def within(seconds: float | None, work: Callable[[], Result]) -> Result:
     return result  # type: ignore[return-value]
 
 
-def _deadline_passed(options: argparse.Namespace, start: float) -> int:
+def deadline_passed(options: argparse.Namespace, start: float) -> int:
+    """Tells that the time given on the command line is over."""
     summary = {
         "verdict": "unknown",
         "cpu_s": time.process_time(),
@@ -153,7 +161,7 @@ def view_command(options: argparse.Namespace) -> int:
 
     output = Path(options.output or f"{Path(options.cell).stem}.html")
     require_writable(output)
-    _keep_inputs([options.cell, options.plan], output)
+    keep_inputs([options.cell, options.plan], output)
     from handey.cell_file import load_cell
     from handey.plan import Plan
 
@@ -172,7 +180,7 @@ def view_command(options: argparse.Namespace) -> int:
     return OK
 
 
-def _keep_inputs(inputs: Sequence[str | None], output: Path) -> None:
+def keep_inputs(inputs: Sequence[str | None], output: Path) -> None:
     """The output must not replace what is read, or may be read by way of it."""
     if output.suffix.lower() in INPUT_KINDS and output.exists():
         message = (

@@ -108,8 +108,9 @@ class Cells:
                 low = np.add(self.lower, np.multiply((column0, row0), self.size))
                 high = np.add(self.lower, np.multiply((column1, row1), self.size))
                 (x0, y1), (x1, y0) = to_picture(np.array([low, high]))
-                width, height = number(x1 - x0), number(y1 - y0)
-                corners.append(f"M{number(x0)} {number(y0)}h{width}v{height}H{number(x0)}z")
+                # Absolute, so that neighbours end at the very same numbers: no seams.
+                left, right = number(x0), number(x1)
+                corners.append(f"M{left} {number(y0)}H{right}V{number(y1)}H{left}z")
             if corners:
                 crisp = 'shape-rendering="crispEdges"'
                 written.append(f'<path {paint.attributes()} {crisp} d="{"".join(corners)}"/>')

@@ -43,6 +43,7 @@
 #include "handey/cspace/cross_section.hpp"
 #include "handey/cspace/free_space.hpp"
 #include "handey/cspace/lattice.hpp"
+#include "handey/cspace/layer.hpp"
 #include "handey/cspace/planar_arm.hpp"
 #include "handey/cspace/search.hpp"
 #include "handey/cspace/separation.hpp"
