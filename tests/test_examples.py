@@ -20,7 +20,7 @@ def run(example: Path, argument: Path) -> None:
     path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
     ran = subprocess.run(
         [sys.executable, example, argument],
-        env={**os.environ, "PYTHONPATH": path},
+        env={**os.environ, "PYTHONPATH": path, "HANDEY_CACHE": ""},
         capture_output=True,
         text=True,
         timeout=300,

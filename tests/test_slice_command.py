@@ -21,6 +21,12 @@ CELLS = Path(__file__).resolve().parent.parent / "models/cells"
 SVG = "{http://www.w3.org/2000/svg}"
 
 
+@pytest.fixture(autouse=True)
+def keep_no_tables(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The user's cache is left alone."""
+    monkeypatch.setenv("HANDEY_CACHE", "")
+
+
 @pytest.fixture(scope="module")
 def plan_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     plan = handey.plan(handey.load_cell(CELLS / "shelf.yaml")).plan
