@@ -65,7 +65,15 @@ FreeSpace::FreeSpace(CollisionChecker& checker, const Configuration& start,
       goals_(goals),
       lattice_(lattice_for(*checker.cell().robot, start, goals)),
       reach_(reach_of(checker)),
-      roots_(at(slices())) {
+      roots_(at(slices())),
+      whole_range_(goals.size()) {
+  if (options.table != nullptr) {
+    const Lattice& cells = options.table->lattice();
+    if (options.table->level() != 0 || cells.lower != lattice_.lower ||
+        cells.width != lattice_.width) {
+      throw InvalidInput("E_REF", "table", "is not of level 0 over this robot's joint ranges");
+    }
+  }
   const auto require_level = [](int level, const char* name) {
     if (level >= 0 && level < Lattice::kLevels) return;
     throw InvalidInput("E_RANGE", name, std::to_string(level) + ", expected 0 to 3");
@@ -131,6 +139,10 @@ SliceBox::State FreeSpace::prove(int index) {
   SliceBox& box = boxes_[at(index)];
   if (box.state != SliceBox::State::Unknown) return box.state;
   box.state = SliceBox::State::NotProved;
+  if (options_.table != nullptr && is_free_in_whole_range(box)) {
+    box.state = SliceBox::State::Free;
+    return box.state;
+  }
   if (bound(box, false) + bound(box, true) > kHopeless) return box.state;
   ConfigurationBox configurations;
   const SlicePoint from = lower(box), to = upper(box);
@@ -157,6 +169,22 @@ SliceBox::State FreeSpace::prove(int index) {
     box.has_near = true;
   }
   return box.state;
+}
+
+bool FreeSpace::is_free_in_whole_range(const SliceBox& box) {
+  if (!is_range(box.slice) || box.level > 0) return false;
+  std::unique_ptr<Slice>& slice = whole_range_[at(goal_of(box.slice))];
+  if (slice == nullptr) {
+    const Eigen::Index wrist = start_.q.size() - 3;
+    const Eigen::VectorXd from = start_.q.tail(wrist);
+    const Eigen::VectorXd to = goals_[at(goal_of(box.slice))].q.tail(wrist);
+    SliceOptions slice_options;
+    slice_options.clearance = options_.clearance;
+    slice = std::make_unique<Slice>(checker_, options_.table,
+                                    WristRange{from.cwiseMin(to), from.cwiseMax(to)},
+                                    start_.opening, slice_options);
+  }
+  return slice->is_free({box.lower[0] / kUnits, box.lower[1] / kUnits, box.lower[2] / kUnits});
 }
 
 bool FreeSpace::may_split_cells(const SliceBox& box) const {

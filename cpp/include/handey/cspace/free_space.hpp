@@ -25,7 +25,10 @@ struct FreeSpaceOptions {
   int home_level = 1;       ///< finest level of the slice with the wrist as at home
   int wrist_splits = 3;     ///< the wrist's range is halved at most so often
   double clearance = 1e-4;  ///< least distance proved [m]
-  std::shared_ptr<const ArmTable> table;  ///< for the whole range slice; null: by proofs alone
+  /// Of level 0: coarse cells over the whole range of the wrist are then free where the union of
+  /// its maps leaves them free (Slice). Choice: null, by proofs alone, which is quicker: the slice
+  /// over a wide range costs more than it saves.
+  std::shared_ptr<const ArmTable> table;
 };
 
 /// The first three joints and how far the wrist is from start (0) to goal (1).
@@ -96,6 +99,7 @@ class FreeSpace {
   bool prefers_wrist(const SliceBox& box) const;
   double bound(const SliceBox& box, bool wrist) const;
   void add_children(int index, bool wrist);
+  bool is_free_in_whole_range(const SliceBox& box);
 
   CollisionChecker& checker_;
   BoxProver prover_;
@@ -106,6 +110,7 @@ class FreeSpace {
   std::vector<double> reach_;  ///< per joint: how far a point of the hand can be from its axis [m]
   std::vector<std::vector<int>> roots_;  ///< per slice, by cell of level 0; -1: not made
   std::vector<SliceBox> boxes_;
+  std::vector<std::unique_ptr<Slice>> whole_range_;  ///< per goal, made when first asked for
   double window_ = 0.0;
   int proofs_ = 0;
 };
