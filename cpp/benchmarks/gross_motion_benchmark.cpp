@@ -39,16 +39,20 @@ struct Arguments {
 
 // What all queries share: made once per robot.
 struct Warm {
+  std::shared_ptr<const CollisionModel>
+      model;  ///< what depends on the robot alone is taken from it
   GrossOptions options;
   std::vector<std::pair<int, int>> self_pairs;
   benchmark::PeerRobot peer_robot;
 };
 
-Warm warm_up(const Robot& robot) {
+// What is made once per robot and kept.
+Warm warm_up(const Cell& cell) {
+  const Robot& robot = *cell.robot;
   GrossOptions options;
-  // Whatever is made once per robot and kept, such as the arm's table, belongs here.
+  options.free_space.table = make_arm_table(robot);
   const std::vector<std::pair<int, int>> self_pairs = benchmark::checked_self_pairs(robot);
-  return {options, self_pairs, benchmark::PeerRobot(robot, self_pairs)};
+  return {make_collision_model(cell), options, self_pairs, benchmark::PeerRobot(robot, self_pairs)};
 }
 
 double cpu_milliseconds() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -69,7 +73,7 @@ void judge(const Cell& cell, const Query& query, const std::vector<Configuration
 Outcome run_handey(const Cell& cell, const Query& query, const Warm& warm, Replay& replay) {
   Outcome outcome;
   const double begin = cpu_milliseconds();
-  CollisionChecker checker(make_collision_model(cell), cell);
+  CollisionChecker checker(make_collision_model(cell, warm.model), cell);
   const double made = cpu_milliseconds();
   const MotionResult result = plan_gross_motion(checker, query.start, {query.goal}, warm.options);
   outcome.planning = cpu_milliseconds() - made;
@@ -100,8 +104,8 @@ bool is_direct(const Cell& cell, const Query& query) {
 
 class Measurement {
  public:
-  Measurement(const Robot& robot, const Arguments& arguments)
-      : arguments_(arguments), warm_(warm_up(robot)) {}
+  Measurement(const Cell& cell, const Arguments& arguments)
+      : arguments_(arguments), warm_(warm_up(cell)) {}
 
   /// @param most_peer_queries the peer is asked no more than the first ones
   void run(const std::string& name, const std::vector<Setting>& settings,
@@ -209,7 +213,7 @@ int main(int argc, char** argv) try {
   const Arguments arguments = read_arguments(argc, argv);
   OmplPeer::seed(arguments.seed);
   const Cell table = example::table_cell(arguments.models);
-  const Measurement measurement(*table.robot, arguments);
+  const Measurement measurement(table, arguments);
   if (arguments.family != "growth" && arguments.family != "pockets") {
     measure_families(table, measurement, arguments);
   }

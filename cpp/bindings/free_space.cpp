@@ -14,7 +14,7 @@ using namespace pybind11::literals;
 void bind_free_space(py::module_& m) {
   py::class_<FreeSpaceOptions>(m, "FreeSpaceOptions", "The slices of one gross motion.")
       .def(py::init([](int window_level, int outer_level, int range_level, int home_level,
-                       int wrist_splits, double clearance) {
+                       int wrist_splits, double clearance, std::shared_ptr<ArmTable> table) {
              FreeSpaceOptions options;
              options.window_level = window_level;
              options.outer_level = outer_level;
@@ -22,6 +22,7 @@ void bind_free_space(py::module_& m) {
              options.home_level = home_level;
              options.wrist_splits = wrist_splits;
              options.clearance = clearance;
+             options.table = std::move(table);
              return options;
            }),
            py::kw_only(), "window_level"_a = FreeSpaceOptions().window_level,
@@ -29,7 +30,7 @@ void bind_free_space(py::module_& m) {
            "range_level"_a = FreeSpaceOptions().range_level,
            "home_level"_a = FreeSpaceOptions().home_level,
            "wrist_splits"_a = FreeSpaceOptions().wrist_splits,
-           "clearance"_a = FreeSpaceOptions().clearance)
+           "clearance"_a = FreeSpaceOptions().clearance, "table"_a = std::shared_ptr<ArmTable>())
       .def_readwrite("window_level", &FreeSpaceOptions::window_level,
                      "Finest level within the windows round the ends: 0 is 8 degrees, 3 is 1.")
       .def_readwrite("outer_level", &FreeSpaceOptions::outer_level,
@@ -40,7 +41,16 @@ void bind_free_space(py::module_& m) {
                      "Finest level of the slice with the wrist as at home.")
       .def_readwrite("wrist_splits", &FreeSpaceOptions::wrist_splits,
                      "The wrist's range is halved at most so often.")
-      .def_readwrite("clearance", &FreeSpaceOptions::clearance, "Least distance proved [m].");
+      .def_readwrite("clearance", &FreeSpaceOptions::clearance, "Least distance proved [m].")
+      .def_property(
+          "table",
+          [](const FreeSpaceOptions& self) {
+            return std::const_pointer_cast<ArmTable>(self.table);
+          },
+          [](FreeSpaceOptions& self, std::shared_ptr<ArmTable> table) {
+            self.table = std::move(table);
+          },
+          "ArmTable of level 0 for this robot, or None: by proofs alone.");
   py::class_<SearchOptions>(m, "SearchOptions", "The search through the slices.")
       .def(py::init([](const std::vector<double>& windows, int max_proofs, double detour) {
              SearchOptions options;

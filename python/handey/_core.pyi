@@ -2703,6 +2703,7 @@ class FreeSpaceOptions:
         home_level: typing.SupportsInt | typing.SupportsIndex = 1,
         wrist_splits: typing.SupportsInt | typing.SupportsIndex = 3,
         clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        table: ArmTable | None = None,
     ) -> None: ...
     @property
     def clearance(self) -> float:
@@ -2732,6 +2733,13 @@ class FreeSpaceOptions:
         """
     @range_level.setter
     def range_level(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def table(self) -> ArmTable | None:
+        """
+        ArmTable of level 0 for this robot, or None: by proofs alone.
+        """
+    @table.setter
+    def table(self, arg1: ArmTable | None) -> None: ...
     @property
     def window_level(self) -> int:
         """

@@ -62,6 +62,7 @@ class Workspace:
         current: where the arm is, and the opening.
         home: configurations to return to after the goal; None to stay.
         clock: CPU seconds by stage.
+        table: maps of the arm's plane, for the gross motions; None: they do without.
     """
 
     model: _core.CollisionModel
@@ -70,6 +71,7 @@ class Workspace:
     current: _core.Configuration
     home: np.ndarray | None
     clock: StageClock
+    table: _core.ArmTable | None = None
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from handey import _core
+from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
 from handey.jaws import is_wider_than_jaws
@@ -161,6 +162,8 @@ def _plan_goals(
     """Plan the goals in their order; with `order: any`, the next one that can be planned."""
     task, goals = cell_file.task, _poses(cell_file)
     pending = list(range(len(goals)))
+    tables = _core.ArmTableOptions(directory=table_directory())
+    table, _ = _core.make_arm_table(cell_file.cell.robot, tables)
     while pending:
         done = None
         for index in pending if task.any_order else pending[:1]:
@@ -176,7 +179,7 @@ def _plan_goals(
             scene = _core.GraspScene(
                 model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP
             )
-            work = Workspace(model, scene, solver, progress.current, home, clock)
+            work = Workspace(model, scene, solver, progress.current, home, clock, table)
             carry = _plan_goal(work, options, goal_report, stop_at)
             if carry is not None:
                 _take_over(progress, goal, index, carry, clock, report.gross_motions)
@@ -204,7 +207,7 @@ def _plan_goal(
     part = scene.cell.parts[scene.part]
     report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     reaches: list[tuple[str, Reach]] = []
-    direct = _with_budget(options, options.sampling_rounds[0])
+    direct = _with_budget(work, options, 0)
     for pair, aim in _grasps(work, ranking, options, report):
         _respect(stop_at)
         name = _describe(pair, aim)
@@ -219,8 +222,8 @@ def _plan_goal(
             report.attempts.append(Attempt(name, carry.stage, carry.reason))
             if carry.stage == "done":
                 return _planned(report, name, carry)
-    for iterations in options.sampling_rounds[1:]:
-        direct = _with_budget(options, iterations)
+    for round_ in range(1, len(options.sampling_rounds)):
+        direct = _with_budget(work, options, round_)
         for name, reach in reaches:
             _respect(stop_at)
             carry = carry_through(work, reach, direct)
@@ -330,11 +333,18 @@ def _describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
     )
 
 
-def _with_budget(options: PlanOptions, iterations: int) -> DirectOptions:
+def _with_budget(work: Workspace, options: PlanOptions, round_: int) -> DirectOptions:
+    """Gross motions of one pass over the grasps: the last may take all the time that they want."""
+    iterations = options.sampling_rounds[round_]
     gross = _core.GrossOptions(
+        free_space=_core.FreeSpaceOptions(table=work.table),
         sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
         shortcut=_core.ShortcutOptions(seed=options.seed),
     )
+    if round_ < len(options.sampling_rounds) - 1:
+        # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
+        gross.search = _core.SearchOptions(max_proofs=5 * iterations)
+        gross.separation = _core.SeparationOptions(most_cells=0)
     return replace(options.direct, gross=gross)
 
 

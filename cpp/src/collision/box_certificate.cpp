@@ -51,6 +51,14 @@ struct BoxProver::Impl {
       return true;
     }
     const double needed = enough(near.pair);
+    if (!checker.are_convex(near.pair)) {
+      near.apart.setZero();
+      const double hulls = checker.hull_distance(near.pair, needed, &near.apart);
+      if (hulls > needed || is_enough_along(near.pair, hulls, near.apart)) return true;
+      const double distance = checker.distance(near.pair, clearance, needed);
+      if (distance <= clearance) collides = true;
+      return distance > needed;
+    }
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
     const double distance = checker.distance(near.pair, clearance, needed, &apart);
     near.apart = apart;

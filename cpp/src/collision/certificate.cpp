@@ -161,9 +161,15 @@ class EdgeProof {
     }
     const double enough = needed(pair);
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
-    const double distance = checker_.distance(pair, options_.clearance, enough, &apart);
+    const bool convex = checker_.are_convex(pair);
+    if (!convex) {
+      const double hulls = checker_.hull_distance(pair, enough, &apart);
+      if (hulls > enough || is_enough_along(pair, hulls, apart)) return true;
+    }
+    const double distance =
+        checker_.distance(pair, options_.clearance, enough, convex ? &apart : nullptr);
     if (distance > enough) return true;
-    if (!apart.isZero() && is_enough_along(pair, distance, apart)) return true;
+    if (convex && !apart.isZero() && is_enough_along(pair, distance, apart)) return true;
     if (distance <= options_.clearance)
       return fail(EdgeStatus::Colliding, pair, distance, stretch.at);
     if (2.0 * bounds_.approach(pair) <= options_.resolution) {

@@ -175,19 +175,40 @@ double CollisionChecker::Impl::distance(const PiecePair& pair, double least, dou
                         apart);
 }
 
+namespace {
+
+/// The other piece of a pair, and where it is.
+std::pair<const collision::Piece*, const Pose*> other_of(const CollisionChecker::Impl& checker,
+                                                         const PiecePair& pair) {
+  if (pair.other >= 0) {
+    return {&checker.piece(pair.other, pair.other_piece),
+            &checker.X_RM[static_cast<std::size_t>(pair.other)]};
+  }
+  const ObstaclePiece& obstacle =
+      checker.obstacle_pieces[static_cast<std::size_t>(pair.other_piece)];
+  return {obstacle.piece, &checker.obstacles[static_cast<std::size_t>(obstacle.obstacle)].X_RB};
+}
+
+}  // namespace
+
+bool CollisionChecker::Impl::are_convex(const PiecePair& pair) const {
+  return piece(pair.mover, pair.piece).convex && other_of(*this, pair).first->convex;
+}
+
+double CollisionChecker::Impl::hull_distance(const PiecePair& pair, double enough,
+                                             Vector3d* apart) const {
+  const auto [other, X_RO] = other_of(*this, pair);
+  return collision::convex_distance(piece(pair.mover, pair.piece).hull,
+                                    X_RM[static_cast<std::size_t>(pair.mover)], other->hull, *X_RO,
+                                    0.0, enough, apart);
+}
+
 double CollisionChecker::Impl::distance_along(const PiecePair& pair,
                                               const Vector3d& direction) const {
-  const collision::Piece& own = piece(pair.mover, pair.piece);
-  const Pose& X_RA = X_RM[static_cast<std::size_t>(pair.mover)];
-  const ObstaclePiece* obstacle =
-      pair.other < 0 ? &obstacle_pieces[static_cast<std::size_t>(pair.other_piece)] : nullptr;
-  const collision::Piece& other =
-      obstacle != nullptr ? *obstacle->piece : piece(pair.other, pair.other_piece);
-  const Pose& X_RO = obstacle != nullptr
-                         ? obstacles[static_cast<std::size_t>(obstacle->obstacle)].X_RB
-                         : X_RM[static_cast<std::size_t>(pair.other)];
-  if (!own.convex || !other.convex) return -std::numeric_limits<double>::infinity();
-  return collision::convex_distance_along(own.hull, X_RA, other.hull, X_RO, direction);
+  const auto [other, X_RO] = other_of(*this, pair);
+  return collision::convex_distance_along(piece(pair.mover, pair.piece).hull,
+                                          X_RM[static_cast<std::size_t>(pair.mover)], other->hull,
+                                          *X_RO, direction);
 }
 
 double CollisionChecker::Impl::rough_distance(const PiecePair& pair) const {

@@ -73,8 +73,12 @@ struct CollisionChecker::Impl {
   double distance(const collision::PiecePair& pair, double least, double enough,
                   Eigen::Vector3d* apart = nullptr) const;
   /// How far the first piece of a pair lies beyond the second along a unit direction, as placed;
-  /// -infinity for pieces that are not convex [m].
+  /// pieces that are not convex count as the boxes that contain them [m].
   double distance_along(const collision::PiecePair& pair, const Eigen::Vector3d& direction) const;
+  /// As distance(), but pieces that are not convex count as the boxes that contain them.
+  double hull_distance(const collision::PiecePair& pair, double enough,
+                       Eigen::Vector3d* apart) const;
+  bool are_convex(const collision::PiecePair& pair) const;
   /// A cheap lower bound of the same, from balls and boxes.
   double rough_distance(const collision::PiecePair& pair) const;
   Hit hit(const collision::PiecePair& pair, double distance) const;

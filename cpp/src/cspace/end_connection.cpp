@@ -9,8 +9,8 @@ namespace {
 
 // Choice: so many boxes are enough to leave an end by, and so many edges are tried for them.
 constexpr std::size_t kEnough = 3;
-constexpr int kMostEdges = 40;
-constexpr int kRings[] = {1, 2, 4, 8};  // in finest cells
+constexpr int kMostEdges = 60;
+constexpr int kRings[] = {1, 2, 4, 8, 16};  // in finest cells
 
 }  // namespace
 

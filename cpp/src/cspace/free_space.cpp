@@ -21,6 +21,10 @@ constexpr double kHopeless = 0.45;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+// Choice: searches that end before so many proofs do without the slice over the whole range, which
+// takes about as long to set up.
+constexpr int kEasy = 200;
+
 /// Cells over the ranges of the joints; over half a turn beyond start and goals where a joint has
 /// no limits.
 Lattice lattice_for(const Robot& robot, const Configuration& start,
@@ -69,9 +73,12 @@ FreeSpace::FreeSpace(CollisionChecker& checker, const Configuration& start,
       whole_range_(goals.size()) {
   if (options.table != nullptr) {
     const Lattice& cells = options.table->lattice();
-    if (options.table->level() != 0 || cells.lower != lattice_.lower ||
-        cells.width != lattice_.width) {
-      throw InvalidInput("E_REF", "table", "is not of level 0 over this robot's joint ranges");
+    // Not of use where a joint has no limits: its cells are laid out anew for every motion.
+    if (cells.wraps == std::array<bool, 3>{} && cells.lower == lattice_.lower &&
+        cells.width == lattice_.width) {
+      if (options.table->level() != 0) throw InvalidInput("E_RANGE", "table", "is not of level 0");
+    } else {
+      options_.table = nullptr;
     }
   }
   const auto require_level = [](int level, const char* name) {
@@ -172,7 +179,7 @@ SliceBox::State FreeSpace::prove(int index) {
 }
 
 bool FreeSpace::is_free_in_whole_range(const SliceBox& box) {
-  if (!is_range(box.slice) || box.level > 0) return false;
+  if (!is_range(box.slice) || box.level > 0 || proofs_ < kEasy) return false;
   std::unique_ptr<Slice>& slice = whole_range_[at(goal_of(box.slice))];
   if (slice == nullptr) {
     const Eigen::Index wrist = start_.q.size() - 3;

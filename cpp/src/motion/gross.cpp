@@ -94,9 +94,9 @@ MotionResult plan_gross_motion(CollisionChecker& checker, const Configuration& s
     result.slices_reason = slices_reason;
     if (!result.found()) {
       const std::string sampling_reason = result.reason;
-      const Separation separation = is_arm_of_slices(robot)
-                                        ? prove_apart(checker, start, ordered, options.separation)
-                                        : Separation{};
+      const bool may_prove = is_arm_of_slices(robot) && options.separation.most_cells > 0;
+      const Separation separation =
+          may_prove ? prove_apart(checker, start, ordered, options.separation) : Separation{};
       if (separation.apart) result.status = MotionStatus::Infeasible;
       result.reason = obstruction + "; " + (separation.apart ? separation.reason : sampling_reason);
     }

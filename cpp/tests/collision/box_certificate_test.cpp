@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "handey/errors.hpp"
 #include "puma_cell.hpp"
 
@@ -49,10 +51,16 @@ Cell with_meshes() {
   return cell;
 }
 
-class BoxProof : public ::testing::TestWithParam<Cell (*)()> {};
+struct NamedCell {
+  const char* name;
+  Cell (*make)();
+};
+std::ostream& operator<<(std::ostream& out, const NamedCell& cell) { return out << cell.name; }
 
-TEST_P(BoxProof, CallsNoBoxFreeInWhichAConfigurationCollides) {
-  const Cell cell = GetParam()();
+class BoxProofIn : public ::testing::TestWithParam<NamedCell> {};
+
+TEST_P(BoxProofIn, CallsNoBoxFreeInWhichAConfigurationCollides) {
+  const Cell cell = GetParam().make();
   CollisionChecker checker(make_collision_model(cell), cell),
       oracle(make_collision_model(cell), cell);
   BoxProver prover(checker);
@@ -72,8 +80,8 @@ TEST_P(BoxProof, CallsNoBoxFreeInWhichAConfigurationCollides) {
   RecordProperty("sampled", sampled);
 }
 
-TEST_P(BoxProof, HoldsForPartsOfABoxThatLookAtTheirOwnPairsOnly) {
-  const Cell cell = GetParam()();
+TEST_P(BoxProofIn, HoldsForPartsOfABoxThatLookAtTheirOwnPairsOnly) {
+  const Cell cell = GetParam().make();
   CollisionChecker checker(make_collision_model(cell), cell),
       oracle(make_collision_model(cell), cell);
   BoxProver prover(checker);
@@ -81,7 +89,7 @@ TEST_P(BoxProof, HoldsForPartsOfABoxThatLookAtTheirOwnPairsOnly) {
   int proved = 0;
   for (int i = 0; i < 4000; ++i) {
     ConfigurationBox box = random_box(*cell.robot, random, 0.3);
-    handey::BoxProof proof = prover.prove(box);
+    BoxProof proof = prover.prove(box);
     for (int depth = 0; depth < 6 && !proof.free; ++depth) {
       box.half *= 0.5;
       for (int j = 0; j < 6; ++j) {
@@ -101,10 +109,10 @@ TEST_P(BoxProof, HoldsForPartsOfABoxThatLookAtTheirOwnPairsOnly) {
   EXPECT_GT(proved, 300);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cells, BoxProof,
-                         ::testing::Values(
-                             +[] { return testing::cluttered_cell(25); }, &with_held_part,
-                             &with_meshes));
+INSTANTIATE_TEST_SUITE_P(
+    Cells, BoxProofIn,
+    ::testing::Values(NamedCell{"Clutter", +[] { return testing::cluttered_cell(25); }},
+                      NamedCell{"PartHeld", &with_held_part}, NamedCell{"Meshes", &with_meshes}));
 
 TEST(BoxProver, ProvesAPointThatIsFree) {
   const Cell cell = testing::cluttered_cell(25);
@@ -115,7 +123,7 @@ TEST(BoxProver, ProvesAPointThatIsFree) {
   for (int i = 0; i < 500; ++i) {
     ConfigurationBox box = random_box(*cell.robot, random, 0.0);
     const bool is_free = checker.is_free(box.centre, 1e-4 + 1e-8);
-    const handey::BoxProof proof = prover.prove(box);
+    const BoxProof proof = prover.prove(box);
     if (is_free) EXPECT_TRUE(proof.free);
     if (!checker.is_free(box.centre)) EXPECT_FALSE(proof.free);
     free += is_free ? 1 : 0;
@@ -128,7 +136,7 @@ TEST(BoxProver, TellsThatTheMiddleCollides) {
   cell.fixtures.push_back(box_body("wall", {0.4, 0.4, 0.4}, testing::at(0.0, 0.0, 1.4)));
   CollisionChecker checker(make_collision_model(cell), cell);
   BoxProver prover(checker);
-  const handey::BoxProof proof =
+  const BoxProof proof =
       prover.prove({{cell.robot->home, 0.05}, Eigen::VectorXd::Constant(6, 0.01)});
   EXPECT_FALSE(proof.free);
   EXPECT_TRUE(proof.collides);

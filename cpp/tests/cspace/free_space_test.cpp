@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "../collision/puma_cell.hpp"
 #include "handey/cspace/search.hpp"
 #include "handey/errors.hpp"
@@ -48,11 +50,17 @@ Cell shelf() {
   return cell;
 }
 
-class FreeSpaceOf : public ::testing::TestWithParam<Cell (*)()> {};
+struct NamedCell {
+  const char* name;
+  Cell (*make)();
+};
+std::ostream& operator<<(std::ostream& out, const NamedCell& cell) { return out << cell.name; }
+
+class FreeSpaceOf : public ::testing::TestWithParam<NamedCell> {};
 
 // All slices that a search makes: fixed wrists, ranges, home.
 TEST_P(FreeSpaceOf, CallsNoBoxFreeInWhichAConfigurationCollides) {
-  const Cell cell = GetParam()();
+  const Cell cell = GetParam().make();
   CollisionChecker checker(make_collision_model(cell), cell),
       oracle(make_collision_model(cell), cell);
   Random random(11);
@@ -84,7 +92,10 @@ TEST_P(FreeSpaceOf, CallsNoBoxFreeInWhichAConfigurationCollides) {
   for (const int count : boxes) EXPECT_GT(count, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cells, FreeSpaceOf, ::testing::Values(&table, &clutter_with_part, &shelf));
+INSTANTIATE_TEST_SUITE_P(Cells, FreeSpaceOf,
+                         ::testing::Values(NamedCell{"Table", &table},
+                                           NamedCell{"ClutterWithPartHeld", &clutter_with_part},
+                                           NamedCell{"Shelf", &shelf}));
 
 TEST(FreeSpace, FindsTheBoxThatHoldsAPoint) {
   const Cell cell = testing::cluttered_cell(25);

@@ -16,7 +16,7 @@ namespace handey {
 struct GrossOptions {
   FreeSpaceOptions free_space;
   SearchOptions search;  ///< max_proofs = 0: sampling at once where no straight edge is free
-  SeparationOptions separation;
+  SeparationOptions separation;  ///< most_cells = 0: no attempt to prove that there is no way
   SamplingOptions sampling;
   ShortcutOptions shortcut;
 };
