@@ -2544,7 +2544,7 @@ class SamplingOptions:
         self,
         *,
         seed: typing.SupportsInt | typing.SupportsIndex = 0,
-        max_iterations: typing.SupportsInt | typing.SupportsIndex = 10000,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 20000,
         range: typing.SupportsFloat | typing.SupportsIndex = 0.6,
         certificate: CertificateOptions = ...,
     ) -> None: ...

@@ -17,7 +17,7 @@ namespace handey {
 
 struct SamplingOptions {
   std::uint64_t seed = 0;
-  int max_iterations = 10000;  ///< states sampled, at least 1
+  int max_iterations = 20000;  ///< states sampled, at least 1
   double range = 0.6;          ///< longest tree edge, in the weighted metric [rad]
   CertificateOptions certificate;
 };
