@@ -42,8 +42,13 @@ MotionResult search_slices(CollisionChecker& checker, const Configuration& start
     result.reason = "slices are switched off";
     return result;
   }
-  FreeSpace space(checker, start, goals, options.free_space);
-  SearchResult found = search_free_space(space, options.search);
+  // One certificate for all that a gross motion is made of.
+  FreeSpaceOptions slices = options.free_space;
+  slices.clearance = std::max(slices.clearance, options.sampling.certificate.clearance);
+  SearchOptions search = options.search;
+  search.certificate = options.sampling.certificate;
+  FreeSpace space(checker, start, goals, slices);
+  SearchResult found = search_free_space(space, search);
   result.iterations = found.proofs;
   result.reason = std::move(found.reason);
   if (!found.found) return result;

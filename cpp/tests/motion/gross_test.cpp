@@ -79,6 +79,23 @@ TEST(Gross, CarriesAPartClearOfWhatTheEmptyHandPasses) {
   expect_free(holding, with.path);
 }
 
+TEST(Gross, KeepsTheClearanceThatIsAskedForInSlicesToo) {
+  CollisionChecker checker = checker_of(cell_with_post());
+  GrossOptions options;
+  options.sampling.certificate.clearance = 0.02;
+  options.shortcut.certificate.clearance = 0.02;
+  const MotionResult result = plan_gross_motion(checker, below_post(), {above_post()}, options);
+  ASSERT_TRUE(result.found()) << result.reason;
+  EXPECT_EQ(result.planner, "slices");
+  for (std::size_t k = 0; k + 1 < result.path.size(); ++k) {
+    for (int i = 0; i <= 200; ++i) {
+      const Configuration& a = result.path[k];
+      const Configuration& b = result.path[k + 1];
+      EXPECT_GE(checker.closest({a.q + i / 200.0 * (b.q - a.q), a.opening}).distance, 0.02 - 1e-7);
+    }
+  }
+}
+
 TEST(Gross, FallsBackToSamplingAndSaysWhy) {
   CollisionChecker checker = checker_of(cell_with_post());
   GrossOptions options;

@@ -17,7 +17,7 @@ struct GrossOptions {
   FreeSpaceOptions free_space;
   SearchOptions search;  ///< max_proofs = 0: sampling at once where no straight edge is free
   SeparationOptions separation;  ///< most_cells = 0: no attempt to prove that there is no way
-  SamplingOptions sampling;
+  SamplingOptions sampling;      ///< its certificate holds for straight edges and slices too
   ShortcutOptions shortcut;
 };
 
