@@ -259,9 +259,17 @@ void bind_plan_approach(py::module_& m) {
       .value("PoorOverlap", ApproachStatus::PoorOverlap)
       .value("IllegalAtDestination", ApproachStatus::IllegalAtDestination)
       .value("NotCertified", ApproachStatus::NotCertified);
+  py::enum_<ApproachPlanner>(m, "ApproachPlanner",
+                             "Which planner found the way in, in the order they are asked.")
+      .value("Straight", ApproachPlanner::Straight)
+      .value("Quasipotential", ApproachPlanner::Quasipotential)
+      .value("PlaneSearch", ApproachPlanner::PlaneSearch)
+      .value("Arm", ApproachPlanner::Arm);
   py::class_<ApproachResult>(m, "ApproachResult",
                              "An approach, or why there is none; true if found.")
       .def_readonly("status", &ApproachResult::status)
+      .def_readonly("planner", &ApproachResult::planner,
+                    "ApproachPlanner that found it; the last one asked, if none did.")
       .def_readonly("reason", &ApproachResult::reason, "Why not found, with names and numbers.")
       .def_readonly("grasp", &ApproachResult::grasp,
                     "GraspPose where the slide ended; its q_pick is the path's end alone.")

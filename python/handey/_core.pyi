@@ -12,6 +12,7 @@ import typing
 __all__: list[str] = [
     "Allowance",
     "ApproachOptions",
+    "ApproachPlanner",
     "ApproachResult",
     "ApproachStatus",
     "ArmJoint",
@@ -2041,6 +2042,47 @@ class ApproachOptions:
     @run_in.setter
     def run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
+class ApproachPlanner:
+    """
+    Which planner found the way in, in the order they are asked.
+
+    Members:
+
+      Straight
+
+      Quasipotential
+
+      PlaneSearch
+
+      Arm
+    """
+
+    Arm: typing.ClassVar[ApproachPlanner]
+    PlaneSearch: typing.ClassVar[ApproachPlanner]
+    Quasipotential: typing.ClassVar[ApproachPlanner]
+    Straight: typing.ClassVar[ApproachPlanner]
+    __members__: typing.ClassVar[dict[str, ApproachPlanner]]
+    @typing.overload
+    def __eq__(self, other: ApproachPlanner) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ApproachPlanner) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class ApproachStatus:
     """
     How an approach ended.
@@ -2104,6 +2146,11 @@ class ApproachResult:
     def path(self) -> list[Configuration]:
         """
         Configurations from the start to the grasp, hand open; every edge certified.
+        """
+    @property
+    def planner(self) -> ApproachPlanner:
+        """
+        ApproachPlanner that found it; the last one asked, if none did.
         """
     @property
     def reason(self) -> str:

@@ -190,6 +190,7 @@ void Approach::certify(const HandSlide& way, ApproachResult& result) {
 
 ApproachResult Approach::slide_from(const PlanarPose& start, const Eigen::VectorXd& q_start) {
   ApproachResult result;
+  result.planner = ApproachPlanner::Quasipotential;
   HandSlide way = slider_.run(start, q_start);
   if (settle_grasp(way, result)) certify(way, result);
   result.slide = std::move(way.slide);

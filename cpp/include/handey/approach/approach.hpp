@@ -38,10 +38,20 @@ enum class ApproachStatus {
   NotCertified
 };
 
+/// Which planner found the way in, in the order in which they are asked.
+enum class ApproachPlanner {
+  Straight,        ///< the hand runs straight in along its approach axis
+  Quasipotential,  ///< the article's slide
+  PlaneSearch,     ///< complete search in (x, y, theta) of the grasp plane
+  Arm              ///< sampling of the whole arm, out of the plane; never from plan_approach
+};
+
 struct ApproachResult {
   ApproachStatus status = ApproachStatus::Stalled;
-  std::string reason;  ///< for people, with names and numbers; empty if found
-  GraspPose grasp;     ///< where the slide ended; its q_pick is the path's last configuration alone
+  ApproachPlanner planner =
+      ApproachPlanner::Straight;  ///< that found it; the last one asked, if none did
+  std::string reason;             ///< for people, with names and numbers; empty if found
+  GraspPose grasp;  ///< where the slide ended; its q_pick is the path's last configuration alone
   std::vector<Configuration>
       path;  ///< certified, from the start to the grasp, hand open (opening constant)
   SlideResult
