@@ -210,6 +210,7 @@ class Tally:
     repeated: int = 0
     cpu: list[float] = dataclasses.field(default_factory=list)
     failed: list[str] = dataclasses.field(default_factory=list)
+    unplanned: list[str] = dataclasses.field(default_factory=list)
 
 
 def run(paths: Iterable[Path], repeat: bool = True, verbose: bool = False) -> Tally:
@@ -220,7 +221,9 @@ def run(paths: Iterable[Path], repeat: bool = True, verbose: bool = False) -> Ta
         result = handey.plan(handey.load_cell(path))
         tally.cpu.append(result.report.cpu_s)
         outcome = f"no plan, {result.report.verdict}: " + " | ".join(result.report.reasons)[:400]
-        if result.plan is not None:
+        if result.plan is None:
+            tally.unplanned.append(path.stem)
+        else:
             tally.planned += 1
             out = path.with_suffix(".plan.json")
             result.plan.save(out)
@@ -235,6 +238,18 @@ def run(paths: Iterable[Path], repeat: bool = True, verbose: bool = False) -> Ta
         if verbose:
             print(f"{path.stem}: {outcome or 'valid'}, {result.report.cpu_s:.2f} s", flush=True)
     return tally
+
+
+def report(name: str, tally: Tally) -> None:
+    """Print a line, and one for each cell that failed."""
+    median, p95 = np.percentile(tally.cpu or [math.nan], [50, 95])
+    print(
+        f"{name}: {tally.tried} cells, {tally.planned} planned, {tally.valid} valid, "
+        f"{tally.repeated} repeated byte for byte; "
+        f"CPU of planning median {median:.3f} s, p95 {p95:.3f} s"
+    )
+    for line in tally.failed:
+        print("  " + line)
 
 
 def is_same(first: handey.Plan, second: handey.Plan, folder: Path) -> bool:
@@ -277,14 +292,7 @@ def main() -> int:
         for name, parts in groups.items():
             cells = direct_cells(args.seed, max(1, args.count // len(groups)), parts, folder)
             tally = run(cells, not args.no_repeat, args.verbose)
-            median, p95 = np.percentile(tally.cpu or [math.nan], [50, 95])
-            print(
-                f"{name}: {tally.tried} cells, {tally.planned} planned, {tally.valid} valid, "
-                f"{tally.repeated} repeated byte for byte; "
-                f"CPU of planning median {median:.3f} s, p95 {p95:.3f} s"
-            )
-            for line in tally.failed:
-                print("  " + line)
+            report(name, tally)
             tried, planned, valid = (
                 tried + tally.tried,
                 planned + tally.planned,
