@@ -303,7 +303,7 @@ def clutter_cells(seed: int, count: int, folder: Path) -> Iterator[Path]:
 
 
 def count_missed(paths: Sequence[Path], seconds: float) -> int:
-    """Of the cells without a plan, how many the exhaustive search solves; prints a line for each."""
+    """Of cells without a plan, how many the exhaustive search solves; a line for each."""
     missed = 0
     for path in paths:
         verdict = exhaustive.search(path, seconds)

@@ -25,8 +25,8 @@ BOX_IN_A_PIT = {
 
 
 def test_plans_in_clutter_are_valid(tmp_path: Path) -> None:
-    tally = random_cells.run(clutter_cells.clutter_cells(seed=7, count=5, folder=tmp_path))
-    assert tally.tried == 5
+    tally = random_cells.run(clutter_cells.clutter_cells(seed=1, count=4, folder=tmp_path))
+    assert tally.tried == 4
     assert tally.planned >= 3, tally.failed
     assert tally.valid == tally.repeated == tally.planned, tally.failed
 
