@@ -1,5 +1,6 @@
 // What a slice over the whole range of the first three joints costs, and how much of the free space
-// it finds: time of the scene's description and all layers, table warm, and recall, the share of
+// it finds: time of the scene's description and all layers, the scene cold, what depends on the
+// robot alone warm (its table, its collision model), and recall, the share of
 // configurations of the first three joints, free at all of 24 wrist values sampled from the range,
 // that lie in free cells. By family of scenes, mode and resolution; the wrist's range is that
 // between the ends of a query, or a small one. Usage: slice_benchmark MODELS [SCENES]
@@ -82,13 +83,14 @@ double median(std::vector<double> values) {
   return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
-void measure(CollisionChecker& checker, const std::shared_ptr<const ArmTable>& table,
-             const WristRange& wrist, SliceMode mode, const std::vector<Eigen::Vector3d>& samples,
-             Row& row) {
+void measure(const Cell& cell, const std::shared_ptr<const CollisionModel>& robot,
+             const std::shared_ptr<const ArmTable>& table, const WristRange& wrist, SliceMode mode,
+             const std::vector<Eigen::Vector3d>& samples, Row& row) {
   SliceOptions options;
   options.mode = mode;
+  CollisionChecker checker(make_collision_model(cell, robot), cell);
   const double begin = cpu_ms();
-  Slice slice(checker, table, wrist, checker.cell().start.opening, options);
+  Slice slice(checker, table, wrist, cell.start.opening, options);
   const int layers = slice.lattice().cells(slice.level(), 0);
   for (int layer = 0; layer < layers; ++layer) slice.blocked(layer);
   row.ms.push_back(cpu_ms() - begin);
@@ -145,15 +147,16 @@ int main(int argc, char** argv) {
     for (const bool small : {true, false}) {
       Row rows[2][3];
       for (const benchmark::Setting& setting : family.settings) {
-        CollisionChecker checker(make_collision_model(setting.cell), setting.cell);
+        const std::shared_ptr<const CollisionModel> model = make_collision_model(setting.cell);
+        CollisionChecker checker(model, setting.cell);
         WristRange wrist;
         if (!find_range(checker, tables[0], setting.queries, small, wrist)) continue;
         const std::vector<Eigen::Vector3d> samples =
             free_samples(checker, wrist, setting.cell.start.opening, random);
         for (int level = 0; level < 3; ++level) {
           for (const SliceMode mode : {SliceMode::Cells, SliceMode::Article}) {
-            measure(checker, tables[static_cast<std::size_t>(level)], wrist, mode, samples,
-                    rows[static_cast<int>(mode)][level]);
+            measure(setting.cell, model, tables[static_cast<std::size_t>(level)], wrist, mode,
+                    samples, rows[static_cast<int>(mode)][level]);
           }
         }
       }

@@ -9,6 +9,7 @@
 
 #include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
+#include "piece_hulls.hpp"
 
 namespace handey::collision {
 namespace {
@@ -193,10 +194,15 @@ Polyhedral::Polyhedral(TriangleMesh triangles)
 }
 
 const Polyhedral& Piece::polyhedral() const {
-  std::call_once(made_, [this] {
-    polyhedral_ = std::make_unique<Polyhedral>(tessellate(shape, kSegments, true));
-  });
-  return *polyhedral_;
+  return polyhedral_.get([this] { return Polyhedral(tessellate(shape, kSegments, true)); });
+}
+
+const SceneHull& Piece::wrapping() const {
+  return wrapping_.get([this] { return hull_of_piece(*this); });
+}
+
+const std::vector<SceneHull>& Piece::covering() const {
+  return covering_.get([this] { return hulls_of_piece(*this, {}); });
 }
 
 Pieces make_pieces(const std::vector<Shape>& shapes, const std::string& place) {

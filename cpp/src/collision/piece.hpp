@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "convex_distance.hpp"
+#include "handey/collision/scene.hpp"
 #include "handey/geometry/shape.hpp"
 #include "mesh_distance.hpp"
 #include "surface_tree.hpp"
@@ -35,6 +36,21 @@ struct Polyhedral {
   std::vector<Eigen::Vector3d> seeds;  ///< one vertex of each connected piece of the surface [m]
 };
 
+/// Made when first asked for, by whichever thread asks first.
+template <class Value>
+class MadeOnce {
+ public:
+  template <class Make>
+  const Value& get(const Make& make) const {
+    std::call_once(made_, [&] { value_ = std::make_unique<const Value>(make()); });
+    return *value_;
+  }
+
+ private:
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<const Value> value_;
+};
+
 /// Immutable once made; shared between threads.
 class Piece {
  public:
@@ -45,12 +61,19 @@ class Piece {
   double radius = 0.0;  ///< of the ball round the box's centre that contains the piece [m]
   Shape shape;          ///< box, cylinder, sphere, or the mesh in the body frame
 
-  /// The piece as triangles in the body frame, made when first asked for.
+  // All in the body frame, made when first asked for.
+  /// The piece as triangles.
   const Polyhedral& polyhedral() const;
+  /// A convex polyhedron that contains the piece.
+  const SceneHull& wrapping() const;
+  /// Convex polyhedra whose union contains a convex piece, or the surface of one that is not; by
+  /// the usual options.
+  const std::vector<SceneHull>& covering() const;
 
  private:
-  mutable std::once_flag made_;
-  mutable std::unique_ptr<Polyhedral> polyhedral_;
+  MadeOnce<Polyhedral> polyhedral_;
+  MadeOnce<SceneHull> wrapping_;
+  MadeOnce<std::vector<SceneHull>> covering_;
 };
 
 using Pieces = std::vector<std::shared_ptr<const Piece>>;

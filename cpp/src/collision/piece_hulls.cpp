@@ -212,7 +212,7 @@ SceneHull hull_of_piece(const Piece& piece) {
 }
 
 std::vector<SceneHull> hulls_of_piece(const Piece& piece, const SceneOptions& options) {
-  if (piece.convex) return {hull_of_piece(piece)};
+  if (piece.convex) return {piece.wrapping()};
   return patch_hulls(piece, options);
 }
 

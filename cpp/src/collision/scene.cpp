@@ -18,7 +18,7 @@ SceneMover describe_mover(const collision::Mover& mover) {
   described.body = mover.body;
   described.X_BM = mover.X_BM;
   for (const auto& piece : mover.geometry->pieces) {
-    described.hulls.push_back(collision::hull_of_piece(*piece));
+    described.hulls.push_back(piece->wrapping());
   }
   return described;
 }
@@ -26,11 +26,16 @@ SceneMover describe_mover(const collision::Mover& mover) {
 SceneObstacle describe_obstacle(const collision::Obstacle& obstacle, const SceneOptions& options) {
   SceneObstacle described;
   described.name = obstacle.label;
+  const SceneOptions usual;
+  const bool is_usual = options.patch_triangles == usual.patch_triangles &&
+                        options.patch_excess == usual.patch_excess;
   for (const auto& piece : obstacle.geometry->pieces) {
-    for (SceneHull& hull : collision::hulls_of_piece(*piece, options)) {
-      for (Eigen::Vector3d& point : hull.points) point = obstacle.X_RB * point;
-      described.hulls.push_back(std::move(hull));
-    }
+    const std::vector<SceneHull> hulls =
+        is_usual ? piece->covering() : collision::hulls_of_piece(*piece, options);
+    described.hulls.insert(described.hulls.end(), hulls.begin(), hulls.end());
+  }
+  for (SceneHull& hull : described.hulls) {
+    for (Eigen::Vector3d& point : hull.points) point = obstacle.X_RB * point;
   }
   return described;
 }
