@@ -136,11 +136,10 @@ void Slice::Impl::block_columns(const Standing& standing) {
   const ArmLinks& links = table.links;
   const double half = 0.5 * table.lattice.cell_width(table.level, 2);
   WaistCell cell(links.plane, 0.0, 0.0);
-  std::vector<Target> targets;
+  cell.place(standing.hull);
   Polygon section, grown;
-  work.targets_of(standing, targets);
-  for (const Target& target : targets) {
-    cell.cross_section(standing.hull, target.slab, section);
+  for (const Target& target : work.targets_of(standing.concerns)) {
+    cell.cross_section(target.slab, section);
     if (section.empty()) continue;
     cspace::grow(section, target.distance, 0.55, grown);
     const std::vector<Polygon> outlines =
@@ -194,10 +193,8 @@ void Slice::Impl::unite_lower(std::vector<std::uint8_t>& bytes) {
 
 void Slice::Impl::make_tori() {
   tori.emplace();
-  std::vector<Target> targets;
   for (const Standing& standing : scene.standing) {
-    work.targets_of(standing, targets);
-    for (const Target& target : targets) {
+    for (const Target& target : work.targets_of(standing.concerns)) {
       for (const Torus& torus : torus_of(table.links.plane, standing.hull, target.slab)) {
         TorusMaps made{torus.lower, torus.upper, {}};
         made.maps.clear(scene.balls.size());

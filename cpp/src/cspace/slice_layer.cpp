@@ -69,33 +69,42 @@ LayerWork::LayerWork(const ArmTable::Impl& table, const SliceScene& scene, doubl
       margin_(clearance + kRounding),
       raster_(table.grid.width, scene.rings) {}
 
-void LayerWork::targets_of(const Standing& standing, std::vector<Target>& targets) const {
-  targets.clear();
+const std::vector<Target>& LayerWork::targets_of(const Concerns& concerns) {
+  // Neighbours in the list mostly have the same.
+  if (targets_.empty() || !(concerns == targets_of_)) {
+    targets_of_ = concerns;
+    targets_.clear();
+    find_targets(concerns);
+  }
+  return targets_;
+}
+
+void LayerWork::find_targets(const Concerns& concerns) {
   const auto widened = [this](const Slab& slab) {
     return Slab{slab.lower - margin_, slab.upper + margin_};
   };
-  if (standing.waist_body) {
+  if (concerns.waist_body) {
     for (const LinkGroup& group : scene_.waist_body) {
       double reach = margin_;
       for (const Polygon& outline : group.outlines) {
         for (const Vector2d& point : outline) reach = std::max(reach, point.norm() + margin_);
       }
-      targets.push_back(
+      targets_.push_back(
           {Target::Kind::WaistBody, widened(group.slab), margin_, nullptr, &group, 0, reach});
     }
   }
   const auto add_groups = [&](Target::Kind kind, const std::vector<GroupMaps>& groups) {
     for (const GroupMaps& group : groups) {
-      targets.push_back({kind, widened(group.slab), margin_, &group.maps, nullptr, 0,
-                         group.maps.last_ring * table_.grid.width + margin_});
+      targets_.push_back({kind, widened(group.slab), margin_, &group.maps, nullptr, 0,
+                          group.maps.last_ring * table_.grid.width + margin_});
     }
   };
-  if (standing.upper) add_groups(Target::Kind::Upper, table_.upper);
-  if (standing.lower) add_groups(Target::Kind::Lower, table_.lower);
-  if (standing.turning) add_groups(Target::Kind::Lower, table_.turning);
-  for (std::size_t ball = 0; ball < standing.hand.size(); ++ball) {
-    if (standing.hand[ball] <= 0.0) continue;
-    const double radius = standing.hand[ball] + margin_;
+  if (concerns.upper) add_groups(Target::Kind::Upper, table_.upper);
+  if (concerns.lower) add_groups(Target::Kind::Lower, table_.lower);
+  if (concerns.turning) add_groups(Target::Kind::Lower, table_.turning);
+  for (std::size_t ball = 0; ball < concerns.hand.size(); ++ball) {
+    if (concerns.hand[ball] <= 0.0) continue;
+    const double radius = concerns.hand[ball] + margin_;
     const double centre = scene_.balls[ball].lateral;
     const int last_ring = scene_.balls[ball].columns.last_ring();
     for (const Strip& strip : kStrips) {
@@ -104,8 +113,8 @@ void LayerWork::targets_of(const Standing& standing, std::vector<Target>& target
                                  : std::min(std::abs(strip.lower), std::abs(strip.upper));
       const Slab slab{centre + strip.lower * radius, centre + strip.upper * radius};
       const double distance = radius * std::sqrt(1.0 - nearest * nearest);
-      targets.push_back({Target::Kind::Hand, slab, distance, nullptr, nullptr, ball,
-                         last_ring * table_.grid.width + distance});
+      targets_.push_back({Target::Kind::Hand, slab, distance, nullptr, nullptr, ball,
+                          last_ring * table_.grid.width + distance});
     }
   }
 }
@@ -133,56 +142,27 @@ void LayerWork::add(const Target& target, const Polygon& section, LayerMaps& map
   }
 }
 
-LayerWork::Place LayerWork::place_of(const Standing& standing, const Pose& X_ER,
-                                     double half_width) const {
-  const ArmPlane& plane = table_.links.plane;
-  const Vector3d centre = X_ER * standing.centre;
-  // A turn by phi moves a point by 2 sin(phi / 2) times its distance from axis 1: along z of E by
-  // no more than sin(phi) times its distance from there along z x axis, and a remainder.
-  const double from_axis =
-      (centre - plane.waist_point).cross(plane.waist_axis).norm() + standing.radius;
-  const double swing = 2.0 * std::sin(0.5 * half_width) * from_axis;
-  Place place;
-  place.nearest = centre.head<2>().norm() - standing.radius - swing;
-  place.lateral = {centre.z() - standing.radius - swing, centre.z() + standing.radius + swing};
-  if (place.nearest > scene_.rings * table_.grid.width + standing.widest_hand() + margin_)
-    return place;
-  const Vector3d forward = Vector3d::UnitZ().cross(plane.waist_axis);
-  const Eigen::RowVector3d along_z = X_ER.linear().row(2);
-  const Eigen::RowVector3d along_forward = forward.transpose() * X_ER.linear();
-  const double base = -forward.dot(plane.waist_point - X_ER.translation());
-  double lower = place.lateral.upper, upper = place.lateral.lower, ahead = 0.0;
-  for (const Vector3d& point : standing.hull.points) {
-    const double z = along_z * point;
-    lower = std::min(lower, z);
-    upper = std::max(upper, z);
-    ahead = std::max(ahead, std::abs(along_forward * point + base));
-  }
-  const double slack =
-      std::sin(half_width) * ahead + (1.0 - std::cos(half_width)) * from_axis + kRounding;
-  const double offset = X_ER.translation().z();
-  place.lateral.lower = std::max(place.lateral.lower, lower + offset - slack);
-  place.lateral.upper = std::min(place.lateral.upper, upper + offset + slack);
-  return place;
-}
-
 void LayerWork::add_at(const Standing& standing, const Pose& X_ER, double half_width,
                        WaistCell& cell, LayerMaps& maps) {
-  const Place place = place_of(standing, X_ER, half_width);
+  // Where can the ball round it be? A turn by phi moves a point by 2 sin(phi / 2) times its
+  // distance from axis 1.
+  const ArmPlane& plane = table_.links.plane;
+  const Vector3d centre = X_ER * standing.centre;
+  const double from_axis =
+      (centre - plane.waist_point).cross(plane.waist_axis).norm() + standing.radius;
+  const double reach = standing.radius + 2.0 * std::sin(0.5 * half_width) * from_axis;
+  const double nearest = centre.head<2>().norm() - reach;
   const double farthest = scene_.rings * table_.grid.width;
-  if (place.nearest > farthest + standing.widest_hand() + margin_) return;
-  targets_of(standing, targets_);
+  if (nearest > farthest + standing.concerns.widest_hand() + margin_) return;
+  cell.place(standing.hull);
   std::size_t ball = 0;
   middle_.clear();
-  for (const Target& target : targets_) {
+  for (const Target& target : targets_of(standing.concerns)) {
     if (maps.all_blocked) return;
     if (target.ball != ball) middle_.clear();
     ball = target.ball;
-    if (place.lateral.lower > target.slab.upper || place.lateral.upper < target.slab.lower) {
-      continue;
-    }
-    if (place.nearest > target.reach) continue;
-    cell.cross_section(standing.hull, target.slab, section_);
+    if (nearest > target.reach) continue;
+    cell.cross_section(target.slab, section_);
     if (section_.empty()) continue;
     // The outer strips' parts mostly lie within the middle one's, which is grown more.
     const bool hand = target.kind == Target::Kind::Hand;

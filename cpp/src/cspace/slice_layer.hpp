@@ -35,8 +35,8 @@ class LayerWork {
  public:
   LayerWork(const ArmTable::Impl& table, const SliceScene& scene, double clearance);
 
-  /// All that is kept apart from something standing, in order.
-  void targets_of(const Standing& standing, std::vector<Target>& targets) const;
+  /// All that is kept apart from something, in order; good until asked again.
+  const std::vector<Target>& targets_of(const Concerns& concerns);
   /// Adds what a section of something standing blocks.
   void add(const Target& target, const Polygon& section, LayerMaps& maps);
   /// The sections of something standing at an interval of the waist angle, and what they block.
@@ -45,18 +45,14 @@ class LayerWork {
               LayerMaps& maps);
 
  private:
-  /// Where a hull can be during an interval of the waist angle.
-  struct Place {
-    Slab lateral;          ///< along z of E [m]
-    double nearest = 0.0;  ///< to axis 2, in the plane [m]
-  };
-  Place place_of(const Standing& standing, const Pose& X_ER, double half_width) const;
+  void find_targets(const Concerns& concerns);
 
   const ArmTable::Impl& table_;
   const SliceScene& scene_;
   double margin_;
   PolarRaster raster_;
   std::vector<Target> targets_;
+  Concerns targets_of_;  ///< whose the targets are
   std::vector<RingSpan> spans_;
   Polygon section_, grown_, middle_;  ///< middle_: a hand's middle strip, grown
 };

@@ -88,14 +88,38 @@ std::vector<Actor> cast(const Scene& scene, const Robot& robot, const ArmTable::
   return actors;
 }
 
-Standing standing_hull(SceneHull hull, const Pose& X) {
-  Standing standing;
-  standing.hull = std::move(hull);
-  Eigen::AlignedBox3d extent;
-  for (Vector3d& point : standing.hull.points) {
-    point = X * point;
-    extent.extend(point);
+/// The same hull with its points in the order of their heights along an axis.
+SceneHull sorted_along(const Vector3d& axis, const SceneHull& hull) {
+  const std::size_t count = hull.points.size();
+  std::vector<std::pair<double, int>> order(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    order[i] = {axis.dot(hull.points[i]), static_cast<int>(i)};
   }
+  std::sort(order.begin(), order.end());
+  SceneHull sorted;
+  std::vector<int> place(count);
+  sorted.points.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = static_cast<std::size_t>(order[i].second);
+    place[from] = static_cast<int>(i);
+    sorted.points.push_back(hull.points[from]);
+  }
+  sorted.edges.reserve(hull.edges.size());
+  for (const std::pair<int, int>& edge : hull.edges) {
+    sorted.edges.emplace_back(place[static_cast<std::size_t>(edge.first)],
+                              place[static_cast<std::size_t>(edge.second)]);
+  }
+  return sorted;
+}
+
+Standing standing_hull(SceneHull hull, const Pose& X, const Vector3d& waist_axis,
+                       const Concerns& concerns) {
+  for (Vector3d& point : hull.points) point = X * point;
+  Standing standing;
+  standing.concerns = concerns;
+  standing.hull = sorted_along(waist_axis, hull);
+  Eigen::AlignedBox3d extent;
+  for (const Vector3d& point : standing.hull.points) extent.extend(point);
   standing.centre = extent.center();
   for (const Vector3d& point : standing.hull.points) {
     standing.radius = std::max(standing.radius, (point - standing.centre).norm());
@@ -103,26 +127,26 @@ Standing standing_hull(SceneHull hull, const Pose& X) {
   return standing;
 }
 
-void concern(Standing& standing, const Actor& actor) {
+void concern(Concerns& concerns, const Actor& actor) {
   switch (actor.role) {
     case Role::Base:
       return;
     case Role::Waist:
-      standing.waist_body = true;
+      concerns.waist_body = true;
       return;
     case Role::Upper:
-      standing.upper = true;
+      concerns.upper = true;
       return;
     case Role::Lower:
-      standing.lower = true;
+      concerns.lower = true;
       return;
     case Role::Turning:
-      standing.turning = true;
+      concerns.turning = true;
       return;
     case Role::Hand:
-      standing.hand.resize(actor.radii.size(), 0.0);
+      concerns.hand.resize(actor.radii.size(), 0.0);
       for (std::size_t i = 0; i < actor.radii.size(); ++i) {
-        standing.hand[i] = std::max(standing.hand[i], actor.radii[i]);
+        concerns.hand[i] = std::max(concerns.hand[i], actor.radii[i]);
       }
       return;
   }
@@ -130,11 +154,11 @@ void concern(Standing& standing, const Actor& actor) {
 
 /// The hulls of the movers of one role, each with what it is kept apart from beyond its own joint.
 std::vector<Standing> own_bodies(const Scene& scene, const std::vector<Actor>& actors, Role role,
-                                 const Pose& X) {
+                                 const Pose& X, const Vector3d& waist_axis) {
   std::vector<Standing> all;
   for (std::size_t m = 0; m < scene.movers.size(); ++m) {
     if (actors[m].role != role || scene.movers[m].finger) continue;
-    Standing concerns;
+    Concerns concerns;
     for (const std::pair<int, int>& pair : scene.mover_pairs) {
       const std::size_t a = static_cast<std::size_t>(pair.first),
                         b = static_cast<std::size_t>(pair.second);
@@ -142,13 +166,7 @@ std::vector<Standing> own_bodies(const Scene& scene, const std::vector<Actor>& a
       if (b == m && actors[a].role > role) concern(concerns, actors[a]);
     }
     for (const SceneHull& hull : scene.movers[m].hulls) {
-      Standing standing = standing_hull(hull, X * scene.movers[m].X_BM);
-      standing.waist_body = concerns.waist_body;
-      standing.upper = concerns.upper;
-      standing.lower = concerns.lower;
-      standing.turning = concerns.turning;
-      standing.hand = concerns.hand;
-      all.push_back(std::move(standing));
+      all.push_back(standing_hull(hull, X * scene.movers[m].X_BM, waist_axis, concerns));
     }
   }
   return all;
@@ -183,18 +201,20 @@ SliceScene make_slice_scene(CollisionChecker& checker, const ArmTable::Impl& tab
   for (const PlaneBall& ball : result.balls) {
     result.rings = std::max(result.rings, ball.columns.last_ring());
   }
-  const Pose& X_R1 = table.links.plane.X_R1;
-  result.standing = own_bodies(scene, actors, Role::Base, Pose::Identity());
-  result.waist = own_bodies(scene, actors, Role::Waist, X_R1);
-  result.upper_arm = own_bodies(scene, actors, Role::Upper, X_R1 * robot.joints[1].X_PJ);
-  result.waist_body = waist_outlines(scene, actors, table.links.plane);
+  const ArmPlane& plane = table.links.plane;
+  const Vector3d axis = plane.X_RE(0.0).linear() * plane.waist_axis;
+  const Pose& X_R1 = plane.X_R1;
+  result.standing = own_bodies(scene, actors, Role::Base, Pose::Identity(), axis);
+  result.waist = own_bodies(scene, actors, Role::Waist, X_R1, axis);
+  result.upper_arm = own_bodies(scene, actors, Role::Upper, X_R1 * robot.joints[1].X_PJ, axis);
+  result.waist_body = waist_outlines(scene, actors, plane);
   for (const SceneObstacle& obstacle : scene.obstacles) {
+    Concerns concerns;
+    for (std::size_t m = 0; m < actors.size(); ++m) {
+      if (obstacle.checked[m]) concern(concerns, actors[m]);
+    }
     for (const SceneHull& hull : obstacle.hulls) {
-      Standing standing = standing_hull(hull, Pose::Identity());
-      for (std::size_t m = 0; m < actors.size(); ++m) {
-        if (obstacle.checked[m]) concern(standing, actors[m]);
-      }
-      result.standing.push_back(std::move(standing));
+      result.standing.push_back(standing_hull(hull, Pose::Identity(), axis, concerns));
     }
   }
   return result;

@@ -9,12 +9,8 @@
 
 namespace handey::cspace {
 
-/// A convex hull that stands still, in R, or in a body of the arm that is taken to stand still.
-struct Standing {
-  SceneHull hull;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0.0;  ///< of the ball about the centre that holds it [m]
-  // Which of the arm's links are kept apart from it.
+/// Which of the arm's links are kept apart from something.
+struct Concerns {
   bool waist_body = false, upper = false, lower = false, turning = false;
   /// By ball of the hand: the radius that holds what of the hand is; 0: none of it [m].
   std::vector<double> hand;
@@ -22,6 +18,18 @@ struct Standing {
   double widest_hand() const {
     return hand.empty() ? 0.0 : *std::max_element(hand.begin(), hand.end());
   }
+  bool operator==(const Concerns& other) const {
+    return waist_body == other.waist_body && upper == other.upper && lower == other.lower &&
+           turning == other.turning && hand == other.hand;
+  }
+};
+
+/// A convex hull that stands still, in R, or in a body of the arm that is taken to stand still.
+struct Standing {
+  SceneHull hull;  ///< points sorted along the waist's axis
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;  ///< of the ball about the centre that holds it [m]
+  Concerns concerns;
 };
 
 /// A ball of the hand as it lies in the arm's plane.

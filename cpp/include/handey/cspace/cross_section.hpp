@@ -51,26 +51,39 @@ struct Slab {
 Polygon cross_section(const ArmPlane& plane, const SceneHull& hull, const Slab& slab, double q1,
                       double half_width);
 
-/// The same for many obstacles at one interval of the waist, in inner loops: nothing is checked and
-/// memory is used again.
+/// The same for many obstacles and slabs at one interval of the waist, in inner loops: nothing is
+/// checked and memory is used again.
 class WaistCell {
  public:
   static constexpr double kWidest = 0.5;  ///< half width [rad]
   /// @throws InvalidInput (E_RANGE) for a half width that is not between 0 and kWidest
   WaistCell(const ArmPlane& plane, double q1, double half_width);
+  /// The hull whose sections are asked for next; it is not copied. Fastest if its points are sorted
+  /// along the waist's axis.
+  void place(const SceneHull& hull);
   /// @param section is replaced; empty if the hull never reaches the slab
-  void cross_section(const SceneHull& hull, const Slab& slab, Polygon& section);
+  void cross_section(const Slab& slab, Polygon& section);
+  void cross_section(const SceneHull& hull, const Slab& slab, Polygon& section) {
+    place(hull);
+    cross_section(slab, section);
+  }
 
  private:
-  /// A vertex of the hull from the waist point, in E, and how far it is within the two clipping
-  /// planes [m].
+  /// A vertex of the hull from the waist point, in E, and how far it may be taken to reach up and
+  /// down z meanwhile [m].
   struct Corner {
     Eigen::Vector3d at;
-    double above = 0.0, below = 0.0;
+    double upmost = 0.0, downmost = 0.0;
   };
-  bool place(const SceneHull& hull, const Slab& slab);
+  /// What a corner sweeps where that is parallel to x [m].
+  struct Level {
+    double y = 0.0, lower = 0.0, upper = 0.0;
+  };
+  void set_reaches();
   void add_swept(const Eigen::Vector3d& corner);
+  void add_clipped(double lower, double upper);
   void take_hull(Polygon& section);
+  void take_hull_of_levels(Polygon& section);
 
   Eigen::Matrix3d R_ER_;
   Eigen::Vector3d p_R_;  // of the waist in R
@@ -78,8 +91,15 @@ class WaistCell {
   Eigen::Vector2d waist_;
   double sine_ = 0.0, cosine_ = 1.0, waist_lateral_ = 0.0;
   bool edge_on_ = false;
+  const SceneHull* hull_ = nullptr;
   std::vector<Corner> corners_;
+  double highest_ = 0.0, lowest_ = 0.0;              // of the reaches up and down [m]
+  double least_upmost_ = 0.0, most_downmost_ = 0.0;  // of them too
+  double rise_ = 0.0, sink_ = 0.0;                   // slabs are widened by these [m]
+  bool has_whole_ = false;
+  Polygon whole_;  ///< section in a slab that holds all of the hull
   std::vector<Eigen::Vector2d> swept_;
+  std::vector<Level> levels_;
 };
 
 /// The article's obstacle: one polygon for all the waist angles in [lower, upper] at which the
