@@ -71,6 +71,8 @@ void bind_free_space(py::module_& m) {
       .def_readonly("goal", &SearchResult::goal, "Which goal was reached, -1 for none.")
       .def_readonly("path", &SearchResult::path, "Configurations from start to goal.")
       .def_readonly("proofs", &SearchResult::proofs, "Boxes looked at.")
+      .def_readonly("stances", &SearchResult::stances,
+                    "Other stances of the wrist that the way goes through.")
       .def_readonly("window", &SearchResult::window, "Half width that sufficed [rad].")
       .def_readonly("reason", &SearchResult::reason)
       .def("__bool__", [](const SearchResult& self) { return self.found; });

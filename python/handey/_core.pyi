@@ -2862,6 +2862,11 @@ class SearchResult:
     @property
     def reason(self) -> str: ...
     @property
+    def stances(self) -> int:
+        """
+        Other stances of the wrist that the way goes through.
+        """
+    @property
     def window(self) -> float:
         """
         Half width that sufficed [rad].

@@ -69,8 +69,8 @@ void visit_neighbours(FreeSpace& space, int index, const Visit& visit) {
     }
   }
   if (box.slice == 0) {
-    for (int slice = 1; slice < space.home_slice(); slice += 2) visit_root(slice, cell);
-  } else if (box.slice == space.home_slice()) {
+    for (int slice = 1; slice < space.first_stance(); slice += 2) visit_root(slice, cell);
+  } else if (space.is_stance(box.slice)) {
     return;
   } else if (space.is_range(box.slice)) {
     visit_root(0, cell);

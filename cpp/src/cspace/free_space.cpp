@@ -68,8 +68,10 @@ FreeSpace::FreeSpace(CollisionChecker& checker, const Configuration& start,
       start_(start),
       goals_(goals),
       lattice_(lattice_for(*checker.cell().robot, start, goals)),
+      stances_{checker.cell().robot->home.tail(start.q.size() - 3)},
       reach_(reach_of(checker)),
-      roots_(at(slices())),
+      roots_(at(first_stance())),
+      stance_roots_(stances_.size()),
       whole_range_(goals.size()) {
   if (options.table != nullptr) {
     const Lattice& cells = options.table->lattice();
@@ -97,6 +99,20 @@ FreeSpace::FreeSpace(CollisionChecker& checker, const Configuration& start,
 
 FreeSpace::~FreeSpace() = default;
 
+int FreeSpace::add_point(int slice) {
+  SliceBox box;
+  box.slice = slice;
+  box.state = SliceBox::State::Point;
+  boxes_.push_back(std::move(box));
+  return size() - 1;
+}
+
+int FreeSpace::add_stance(const Eigen::VectorXd& q) {
+  stances_.push_back(q.tail(q.size() - 3));
+  stance_roots_.emplace_back();
+  return slices() - 1;
+}
+
 SlicePoint FreeSpace::real(const std::array<int, 4>& units) const {
   SlicePoint point{};
   for (int j = 0; j < 3; ++j) {
@@ -108,8 +124,9 @@ SlicePoint FreeSpace::real(const std::array<int, 4>& units) const {
 
 Configuration FreeSpace::configuration(int slice, const SlicePoint& point) const {
   Configuration configuration = start_;
-  if (slice == home_slice()) {
-    configuration.q = checker_.cell().robot->home;
+  if (is_stance(slice)) {
+    const Eigen::VectorXd& wrist = stances_[at(slice - first_stance())];
+    configuration.q.tail(wrist.size()) = wrist;
   } else if (slice > 0) {
     const Eigen::VectorXd& goal = goals_[at(goal_of(slice))].q;
     configuration.q =
@@ -196,7 +213,7 @@ bool FreeSpace::is_free_in_whole_range(const SliceBox& box) {
 
 bool FreeSpace::may_split_cells(const SliceBox& box) const {
   if (is_range(box.slice)) return box.level < options_.range_level;
-  if (box.slice == home_slice()) return box.level < options_.home_level;
+  if (is_stance(box.slice)) return box.level < options_.home_level;
   if (box.level < options_.outer_level) return true;
   if (box.level >= options_.window_level) return false;
   const Configuration& end = box.slice == 0 ? start_ : goals_[at(goal_of(box.slice))];
@@ -255,9 +272,16 @@ int FreeSpace::root(int slice, const CellIndex& cell) {
   for (std::size_t j = 0; j < 3; ++j) {
     if (cell[j] < 0 || cell[j] >= count[j]) return -1;
   }
-  std::vector<int>& roots = roots_[at(slice)];
-  if (roots.empty()) roots.assign(at(count[0] * count[1] * count[2]), -1);
-  int& root = roots[at((cell[0] * count[1] + cell[1]) * count[2] + cell[2])];
+  const int key = (cell[0] * count[1] + cell[1]) * count[2] + cell[2];
+  int* found = nullptr;
+  if (is_stance(slice)) {
+    found = &stance_roots_[at(slice - first_stance())].try_emplace(key, -1).first->second;
+  } else {
+    std::vector<int>& roots = roots_[at(slice)];
+    if (roots.empty()) roots.assign(at(count[0] * count[1] * count[2]), -1);
+    found = &roots[at(key)];
+  }
+  int& root = *found;
   if (root >= 0) return root;
   root = size();
   SliceBox box;
@@ -268,7 +292,7 @@ int FreeSpace::root(int slice, const CellIndex& cell) {
   }
   box.lower[3] = slice == 0 || is_range(slice) ? 0 : kWristUnits;
   box.upper[3] = slice == 0 ? 0 : kWristUnits;
-  if (slice == home_slice()) box.lower[3] = box.upper[3] = kWristUnits / 2;
+  if (is_stance(slice)) box.lower[3] = box.upper[3] = kWristUnits / 2;
   boxes_.push_back(std::move(box));
   return root;
 }

@@ -4,91 +4,37 @@
 #include "handey/cspace/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <limits>
-#include <queue>
 #include <utility>
 
 #include "box_neighbours.hpp"
-#include "end_connection.hpp"
 #include "handey/errors.hpp"
+#include "search_sides.hpp"
+#include "stance_samples.hpp"
 
 namespace handey {
 namespace {
 
+using cspace::kInfinity;
+using cspace::Label;
+using cspace::Open;
+using cspace::Side;
+
 // Choice: a side leaps after so many proofs; a leap costs as much as ten.
 constexpr int kLeapEvery = 30;
-constexpr std::size_t kTurnEvery = 3;  // leaps to one turn of the wrist
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// How long the arm takes from point to point at its velocity limits.
-class Clock {
- public:
-  explicit Clock(const FreeSpace& space, const Robot& robot) {
-    for (std::size_t j = 0; j < 3; ++j) speed_[j] = robot.joints[j].limit.velocity;
-    for (const Configuration& goal : space.goals()) {
-      double wrist = 0.0;
-      for (Eigen::Index j = 3; j < goal.q.size(); ++j) {
-        wrist = std::max(wrist, std::abs(goal.q(j) - space.start().q(j)) /
-                                    robot.joints[static_cast<std::size_t>(j)].limit.velocity);
-      }
-      wrist_.push_back(wrist);
-    }
-  }
-  double time(const SlicePoint& a, const SlicePoint& b, int goal) const {
-    double time = goal < 0 ? 0.0 : wrist_[static_cast<std::size_t>(goal)] * std::abs(a[3] - b[3]);
-    for (std::size_t j = 0; j < 3; ++j) time = std::max(time, std::abs(a[j] - b[j]) / speed_[j]);
-    return time;
-  }
-
- private:
-  std::array<double, 3> speed_{};
-  std::vector<double> wrist_;
-};
-
-struct Label {
-  double cost = kInfinity;  ///< from this side's end to the entry [s]
-  int before = -1;  ///< box that this one was entered from, or minus two minus an end's index
-  int goal = -1;    ///< of the goals' side: which goal this leads to
-  SlicePoint entry{};
-};
-
-struct Open {
-  double estimate, cost;
-  long order;
-  int box, before, goal;
-  SlicePoint entry;
-  bool operator<(const Open& other) const {  // the queue gives the greatest first
-    if (estimate != other.estimate) return estimate > other.estimate;
-    if (cost != other.cost) return cost < other.cost;
-    return order > other.order;
-  }
-};
-
-/// The same open boxes in another order: farthest from this side's end first, whatever the way
-/// costs. It leads out of narrow places, where the estimate sees no difference between the boxes.
-struct Farther {
-  bool operator()(const std::pair<double, Open>& a, const std::pair<double, Open>& b) const {
-    return a.first != b.first ? a.first < b.first : a.second.order > b.second.order;
-  }
-};
-
-struct Side {
-  std::priority_queue<Open> open;
-  std::priority_queue<std::pair<double, Open>, std::vector<std::pair<double, Open>>, Farther>
-      outward;
-  std::vector<Label> labels;  ///< per box; finite cost: expanded
-  std::vector<cspace::EndConnection> ends;
-  std::vector<int> beacons;  ///< expanded boxes that the other side leaps to
-  int turn = 0, leaps = 0;
-  int next_leap = 0;  ///< at so many proofs
-};
+constexpr std::size_t kTurnEvery = 3;  // leaps to one turn of the wrist to its stance at home
+// Choice: searches that take so many proofs look for other stances of the wrist; one for so many
+// proofs on a side.
+constexpr int kHard = 200;
+constexpr int kStanceEvery = 5;
 
 class Search {
  public:
   Search(FreeSpace& space, const SearchOptions& options)
-      : space_(space), options_(options), clock_(space, *space.checker().cell().robot) {}
+      : space_(space),
+        options_(options),
+        clock_(space, *space.checker().cell().robot),
+        stances_(space) {}
 
   SearchResult run() {
     for (const double window : options_.windows) {
@@ -150,7 +96,7 @@ class Search {
   // Least time from a point to the other side's ends, whatever is in the way.
   double estimate(int s, int slice, int goal, const SlicePoint& point) const {
     if (s == 1) return clock_.time(point, space_.start_point(), goal);
-    if (slice > 0 && slice != space_.home_slice()) {
+    if (slice > 0 && !space_.is_stance(slice)) {
       const int own = FreeSpace::goal_of(slice);
       return clock_.time(point, space_.goal_point(own), own);
     }
@@ -214,6 +160,10 @@ class Search {
       side.next_leap = space_.proofs() + kLeapEvery;
     }
     cspace::visit_neighbours(space_, next.box, [&](int other) { reach(s, next.box, other); });
+    if (space_.proofs() > kHard && space_.proofs() >= side.next_stance) {
+      take_stance(s);
+      side.next_stance = space_.proofs() + kStanceEvery;
+    }
   }
 
   // Opens `to`, entered from `from`, where the two touch.
@@ -221,8 +171,7 @@ class Search {
     if (label(s, to).cost < kInfinity) return;
     const Label& here = label(s, from);
     const int slice = space_.box(to).slice;
-    const int goal =
-        slice > 0 && slice != space_.home_slice() ? FreeSpace::goal_of(slice) : here.goal;
+    const int goal = slice > 0 && !space_.is_stance(slice) ? FreeSpace::goal_of(slice) : here.goal;
     // In the start's slice the wrist stands still, so ways to all goals meet there.
     const SlicePoint aim = s == 0 && goal >= 0 ? space_.goal_point(goal) : target(s, here.entry);
     const SlicePoint entry = cspace::crossing(space_, from, to, here.entry, aim);
@@ -278,9 +227,7 @@ class Search {
       goal = towards;
     }
     if (best < 0) return;
-    const Configuration from = space_.configuration(space_.box(box).slice, mine.entry);
-    const Configuration to = space_.configuration(space_.box(best).slice, label(1 - s, best).entry);
-    if (!is_edge_free(from, to)) return;
+    if (!is_edge_free(at(s, box), at(1 - s, best))) return;
     best_ = way;
     meeting_ = s == 0 ? std::array<int, 2>{box, best} : std::array<int, 2>{best, box};
     goal_ = goal;
@@ -290,18 +237,53 @@ class Search {
   // sides and to all goals, and the hand is slim there.
   void turn_home(int s, int box) {
     const int home = space_.home_slice();
-    const int slice = space_.box(box).slice;
-    if (slice == home) return;
+    if (space_.box(box).slice == home) return;
     SlicePoint point = label(s, box).entry;
     const int there = space_.box_at(home, point);
     if (there < 0 || space_.box(there).state != SliceBox::State::Free) return;
     if (label(s, there).cost < kInfinity) return;
-    if (!is_edge_free(space_.configuration(slice, point), space_.configuration(home, point))) {
-      return;
-    }
+    const Configuration from = space_.configuration(space_.box(box).slice, point);
+    if (!is_edge_free(from, space_.configuration(home, point))) return;
     const Label& mine = label(s, box);
     point[3] = 0.5;
     push(s, there, box, mine.goal, mine.cost + clock_.time(mine.entry, point, mine.goal), point);
+  }
+
+  // Moves all joints at once from where this side is to a stance of the wrist that is neither the
+  // start's nor the goal's nor between, and leaps from there: the way out of places that can only
+  // be left so.
+  void take_stance(int s) {
+    Side& side = sides_[s];
+    const Eigen::VectorXd aim = stances_.next();
+    int from = -1;
+    double least = kInfinity;
+    for (const int box : side.beacons) {
+      const double distance = stances_.distance(at(s, box).q, aim);
+      if (distance >= least) continue;
+      least = distance;
+      from = box;
+    }
+    if (from < 0) return;
+    const Configuration here = at(s, from);
+    const Configuration there{stances_.towards(here.q, aim), here.opening};
+    if (!is_edge_free(here, there)) return;
+    const int slice = space_.add_stance(there.q);
+    const SlicePoint point{there.q(0), there.q(1), there.q(2), 0.5};
+    int box = space_.box_at(slice, point);
+    const bool boxed = box >= 0 && space_.box(box).state == SliceBox::State::Free;
+    if (!boxed) box = space_.add_point(slice);
+    const Label mine = label(s, from);
+    label(s, box) = {mine.cost + clock_.time(mine.entry, point, mine.goal), from, mine.goal, point};
+    leap(s, box);
+    side.beacons.push_back(box);
+    if (boxed) {
+      cspace::visit_neighbours(space_, box, [&](int other) { reach(s, box, other); });
+    }
+  }
+
+  /// Where this side entered a box.
+  Configuration at(int s, int box) {
+    return space_.configuration(space_.box(box).slice, label(s, box).entry);
   }
 
   // Most edges that are tried are not free, and a look at three configurations tells it of most.
@@ -335,6 +317,11 @@ class Search {
     std::vector<std::pair<int, SlicePoint>> points = way(0);
     std::reverse(points.begin(), points.end());
     for (const auto& point : way(1)) points.push_back(point);
+    int last = -1;
+    for (const auto& [slice, point] : points) {
+      if (slice > space_.home_slice() && slice != last) ++result_.stances;
+      last = slice;
+    }
     std::vector<Configuration>& path = result_.path;
     path.push_back(space_.start());
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -362,7 +349,8 @@ class Search {
 
   FreeSpace& space_;
   const SearchOptions& options_;
-  Clock clock_;
+  cspace::Clock clock_;
+  cspace::StanceSamples stances_;
   std::array<Side, 2> sides_;
   SearchResult result_;
   double best_ = kInfinity;

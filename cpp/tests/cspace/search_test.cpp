@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../collision/puma_cell.hpp"
 #include "handey/errors.hpp"
 
@@ -91,6 +93,30 @@ TEST(Search, ReachesAnyOfSeveralGoals) {
     EXPECT_TRUE(certify_path(checker, result.path, {0.99e-4, 1e-5}).is_free());
   }
   EXPECT_GE(found, 2);
+}
+
+TEST(Search, LeavesNarrowPlacesByOtherStancesOfTheWrist) {
+  const Cell cell = testing::cluttered_cell(25);
+  CollisionChecker checker(make_collision_model(cell), cell);
+  int by_stances = 0;
+  for (const Query& query : blocked_queries(checker, 12, 25)) {
+    FreeSpace space(checker, query.start, {query.goal});
+    const SearchResult result = search_free_space(space);
+    if (!result.found || result.stances == 0) continue;
+    ++by_stances;
+    EXPECT_TRUE(certify_path(checker, result.path, {0.99e-4, 1e-5}).is_free());
+    bool turned = false;  // some joint of the wrist beyond its range from start to goal, not home
+    for (const Configuration& on_way : result.path) {
+      for (Eigen::Index j = 3; j < 6; ++j) {
+        const double from = std::min(query.start.q(j), query.goal.q(j));
+        const double to = std::max(query.start.q(j), query.goal.q(j));
+        const bool at_home = on_way.q(j) == cell.robot->home(j);
+        turned |= !at_home && (on_way.q(j) < from - 1e-3 || on_way.q(j) > to + 1e-3);
+      }
+    }
+    EXPECT_TRUE(turned);
+  }
+  EXPECT_GT(by_stances, 0);
 }
 
 TEST(Search, SaysThatAnEndIsShutIn) {

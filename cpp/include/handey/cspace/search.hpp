@@ -3,9 +3,11 @@
 // points of their common faces, so every piece of it lies within one free box. Where both sides can
 // be joined by a straight edge that is certified, they are. Boxes are proved only when the search
 // comes to them. Deterministic. With a detour of 1 no way through the boxes is quicker than the one
-// found, as far as they cross where this one does; with more, the first way found is taken. Not
-// guaranteed: that a way is found which needs wrist angles that are neither between start and goal
-// nor those at home. Article: "Global planning", Figure 7.
+// found, as far as they cross where this one does; with more, the first way found is taken. A
+// search that proves hard looks for other stances of the wrist too, taken from a fixed sequence,
+// and goes on from them in slices of their own. Not guaranteed: that a way is found wherever there
+// is one, above all where the wrist must turn in a narrow place. Article: "Global planning",
+// Figure 7.
 #pragma once
 
 #include <string>
@@ -32,6 +34,7 @@ struct SearchResult {
   std::vector<Configuration>
       path;             ///< start to goals[goal]; every edge within a free box, or certified
   int proofs = 0;       ///< boxes looked at
+  int stances = 0;      ///< other stances of the wrist that the way goes through
   double window = 0.0;  ///< half width that sufficed [rad]
   std::string reason;   ///< why not found
 };
