@@ -346,9 +346,9 @@ def test_depth_maps_are_read(tmp_path):
     entry = f"depth: d.png, scale: 0.001, {CAMERA}"
     (found,) = read_cell(depth_cell(tmp_path, entry, d=png(6, 8))).depth_maps
     assert (found.shape, found.scale, found.explained, found.far) == ((6, 8), 0.001, 0.005, 0.3)
-    (found,) = read_cell(
-        depth_cell(tmp_path, f"depth: d.npy, {CAMERA}", d=np.full((6, 8), np.nan))
-    ).depth_maps
+    some = np.full((6, 8), np.nan)
+    some[2, 3] = 1.0
+    (found,) = read_cell(depth_cell(tmp_path, f"depth: d.npy, {CAMERA}", d=some)).depth_maps
     assert found.shape == (6, 8)
 
 
@@ -403,6 +403,18 @@ DEPTH_CASES = {
         f"depth: d.png, scale: 1, {CAMERA}",
         {"d": png(6, 8, pixels=b"\0" * 10**8)},
         "E_IMAGE",
+        "depth",
+    ),
+    "nothing measured": (
+        f"depth: d.npy, {CAMERA}",
+        {"d": np.full((6, 8), np.nan)},
+        "E_IMAGE",
+        "depth",
+    ),
+    "negative depth": (
+        f"depth: d.npy, {CAMERA}",
+        {"d": np.full((6, 8), -0.5)},
+        "E_NUMBER",
         "depth",
     ),
     "8 bits": (f"depth: d.png, scale: 1, {CAMERA}", {"d": png(6, 8, bits=8)}, "E_IMAGE", "depth"),

@@ -208,14 +208,14 @@ def test_a_part_that_does_not_stand_at_the_start_is_a_warning():
     assert "bar does not stand stably" in warning
 
 
-def test_depth_maps_are_read_but_not_planned_with(tmp_path):
+def test_a_depth_map_is_a_fixture_after_those_of_the_file(tmp_path):
     np.save(tmp_path / "heap.npy", np.full((4, 4), 0.1))
-    heap = {"heights": str(tmp_path / "heap.npy"), "cell": 0.01}
+    heap = {"heights": str(tmp_path / "heap.npy"), "cell": 0.01, "pose": {"xyz": [0.5, 0.5, 0]}}
+    plain = parsed()
     loaded = parsed(depth_maps={"heap": heap})
     assert loaded.depth_maps[0].shape == (4, 4)
-    with pytest.raises(InvalidInput, match=r"depth_maps: .*heap"):
-        loaded.require_plannable()
-    parsed().require_plannable()
+    names = [fixture.name for fixture in plain.cell.fixtures]
+    assert [fixture.name for fixture in loaded.cell.fixtures] == [*names, "heap"]
 
 
 # Meshes

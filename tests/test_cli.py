@@ -69,9 +69,6 @@ class StandInCell:
     goals: tuple = (PlaceOn("block", "table"),)
     warnings: tuple = ()
 
-    def require_plannable(self):
-        pass
-
 
 def some_plan() -> Plan:
     steps = []

@@ -13,11 +13,12 @@ namespace handey::bindings {
 void bind_geometry(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 void bind_world(pybind11::module_& m);
+void bind_depth_map(pybind11::module_& m);  // part of world
 void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
 void bind_approach(pybind11::module_& m);
 void bind_cspace(pybind11::module_& m);
-void bind_layer(pybind11::module_& m);  // part of cspace
+void bind_layer(pybind11::module_& m);       // part of cspace
 void bind_free_space(pybind11::module_& m);  // part of cspace
 void bind_motion(pybind11::module_& m);
 

@@ -181,6 +181,7 @@ void bind_world(py::module_& m) {
   bind_references(m);
   bind_body(m);
   bind_cell(m);
+  bind_depth_map(m);
 }
 
 }  // namespace handey::bindings

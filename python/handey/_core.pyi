@@ -32,6 +32,8 @@ __all__: list[str] = [
     "CollisionModel",
     "Configuration",
     "Cylinder",
+    "DepthImage",
+    "DepthMapOptions",
     "EdgeResult",
     "EdgeStatus",
     "FacePair",
@@ -46,6 +48,7 @@ __all__: list[str] = [
     "GrossOptions",
     "HandPathOptions",
     "HandPathResult",
+    "HeightMap",
     "HeldPart",
     "Hit",
     "InscribedCircle",
@@ -59,6 +62,7 @@ __all__: list[str] = [
     "LegalityOptions",
     "LoadedMesh",
     "LoadedRobot",
+    "MeasuredBody",
     "MeshShape",
     "MotionGrid",
     "MotionResult",
@@ -73,6 +77,7 @@ __all__: list[str] = [
     "RankedPair",
     "Ranking",
     "RankingOptions",
+    "ReachBall",
     "Region",
     "RejectedPair",
     "Rejection",
@@ -120,8 +125,11 @@ __all__: list[str] = [
     "connected_parts",
     "contains_point",
     "convex_hull",
+    "cover_depths",
+    "cover_heights",
     "cross_section",
     "describe_scene",
+    "explained_pixels",
     "find_feature_pairs",
     "find_legal_grasps",
     "find_overlaps",
@@ -159,6 +167,7 @@ __all__: list[str] = [
     "prove_layer",
     "quaternion_xyzw",
     "rank_grasps",
+    "reach_ball",
     "robot_overlaps",
     "search_free_space",
     "shorten_path",
@@ -171,6 +180,7 @@ __all__: list[str] = [
     "torus_of",
     "touching_bodies",
     "travel_time",
+    "unfilter_png16",
     "unite",
 ]
 
@@ -1072,6 +1082,186 @@ class Cell:
     def robot(self) -> Robot: ...
     @property
     def start(self) -> Configuration: ...
+
+class HeightMap:
+    """
+    Heights over a plane: an obstacle known by measurement.
+
+    Args:
+        heights: (rows, columns) [m], rows along +y, columns along +x; each stands for a square column
+            about it, solid from z = 0 up to the height. NaN: not measured, as high as the highest.
+        cell: side of a column [m].
+        X_WD: the map in the world, (4, 4); identity by default.
+    """
+    def __init__(
+        self, heights: typing.Any, *, cell: typing.Any, X_WD: typing.Any = None
+    ) -> None: ...
+    @property
+    def X_WD(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        (4, 4)
+        """
+    @property
+    def cell(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def heights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (rows, columns) [m]; a copy.
+        """
+
+class DepthImage:
+    """
+    What a depth camera saw: an obstacle known by measurement.
+
+    Args:
+        depths: (rows, columns), times `scale` the depth along the optical axis [m]; 0 or NaN: not
+            measured, as near as the nearest measured pixel on the border of its hole.
+        fx, fy, cx, cy: pixel (row v, column u) looks along ((u - cx) / fx, (v - cy) / fy, 1).
+        scale: metres per unit of the depths.
+        X_WD: the camera in the world, (4, 4): z forward, x right, y down; identity by default.
+        explained: a pixel this near to a known surface belongs to it [m].
+        far: space is solid this far behind a pixel, over its whole cone [m].
+    """
+    def __init__(
+        self,
+        depths: typing.Any,
+        *,
+        fx: typing.Any,
+        fy: typing.Any,
+        cx: typing.Any,
+        cy: typing.Any,
+        scale: typing.Any = 1.0,
+        X_WD: typing.Any = None,
+        explained: typing.Any = 0.005,
+        far: typing.Any = 0.3,
+    ) -> None: ...
+    @property
+    def X_WD(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        (4, 4)
+        """
+    @property
+    def cx(self) -> float: ...
+    @property
+    def cy(self) -> float: ...
+    @property
+    def depths(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (rows, columns) [m]; a copy.
+        """
+    @property
+    def explained(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def far(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def fx(self) -> float: ...
+    @property
+    def fy(self) -> float: ...
+
+class DepthMapOptions:
+    """
+    How closely solids follow what was measured.
+
+    Args:
+        excess: they may stand out by this much near the places [m].
+        growth: and this much more per metre of distance from them.
+        most_excess: but no more than this far from them [m].
+        most_solids: beyond this number the tolerance gives way.
+        places: list of Body: where parts stand, now or in the end.
+        exact_within: this near to the places nothing stands out [m].
+        reach_centre: (3,) in the world.
+        reach: nothing beyond the ball of this radius is kept; None: all is [m].
+    """
+    def __init__(
+        self,
+        *,
+        excess: typing.SupportsFloat | typing.SupportsIndex = 0.003,
+        growth: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        most_excess: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        most_solids: typing.SupportsInt | typing.SupportsIndex = 160,
+        places: collections.abc.Sequence[Body] = [],
+        exact_within: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        reach_centre: typing.Any = None,
+        reach: typing.Any = None,
+    ) -> None: ...
+    @property
+    def exact_within(self) -> float: ...
+    @exact_within.setter
+    def exact_within(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def excess(self) -> float: ...
+    @excess.setter
+    def excess(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def growth(self) -> float: ...
+    @growth.setter
+    def growth(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most_excess(self) -> float: ...
+    @most_excess.setter
+    def most_excess(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most_solids(self) -> int: ...
+    @most_solids.setter
+    def most_solids(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def places(self) -> list[Body]: ...
+    @places.setter
+    def places(self, arg0: collections.abc.Sequence[Body]) -> None: ...
+    @property
+    def reach(self) -> float | None: ...
+    @reach.setter
+    def reach(self, arg0: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def reach_centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    @reach_centre.setter
+    def reach_centre(
+        self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> None: ...
+
+class MeasuredBody:
+    """
+    A depth map as a fixture.
+    """
+    @property
+    def body(self) -> Body:
+        """
+        Body; without shapes if there is nothing solid within reach.
+        """
+    @property
+    def exact_at_places(self) -> bool:
+        """
+        False if that would have taken too many solids.
+        """
+    @property
+    def excess(self) -> float:
+        """
+        No point of a solid is farther than this from what was measured [m].
+        """
+
+class ReachBall:
+    """
+    A ball that holds all that the arm can come to.
+    """
+    @property
+    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) in the world [m]
+        """
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
 
 class CollisionModel:
     """
@@ -3451,6 +3641,62 @@ def hand_in_world(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     Grasp frame in the world, (4, 4).
+    """
+
+def cover_heights(name: str, map: HeightMap, options: DepthMapOptions = ...) -> MeasuredBody:
+    """
+    A height map as a fixture of few convex solids that contain it.
+
+    Args:
+        name: of the fixture.
+        map: HeightMap.
+        options: DepthMapOptions.
+
+    Returns:
+        MeasuredBody.
+    """
+
+def cover_depths(
+    name: str, image: DepthImage, explained: typing.Any = None, options: DepthMapOptions = ...
+) -> MeasuredBody:
+    """
+    What a depth camera saw as a fixture of few convex solids that contain it.
+
+    Args:
+        name: of the fixture.
+        image: DepthImage.
+        explained: (rows, columns) of booleans: taken out; None: no pixel is.
+        options: DepthMapOptions.
+
+    Returns:
+        MeasuredBody.
+    """
+
+def explained_pixels(image: DepthImage, cell: Cell) -> numpy.typing.NDArray[numpy.bool]:
+    """
+    Which pixels are measured and lie within `explained` of a known surface?
+
+    Args:
+        image: DepthImage.
+        cell: its fixtures, its parts and the robot at its start are known.
+
+    Returns:
+        (rows, columns) of booleans. Points within 1e-6 m of that limit count as farther.
+    """
+
+def reach_ball(cell: Cell) -> ReachBall:
+    """
+    ReachBall of the arm and what it may hold, whatever its joints do.
+    """
+
+def unfilter_png16(
+    content: bytes,
+    *,
+    rows: typing.SupportsInt | typing.SupportsIndex,
+    columns: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.uint16]:
+    """
+    The grey values of a 16-bit PNG from its unpacked, still filtered rows: (rows, columns).
     """
 
 def hand_pose(

@@ -16,6 +16,7 @@ from handey import _core
 from handey.body_entry import BodyEntry, Box, Cylinder, Mesh, ShapeEntry, Sphere
 from handey.cell_file import CellEntry, CellFile, RobotPlace
 from handey.errors import Fault, InvalidInput
+from handey.measured import with_depth_maps
 from handey.refusals import find_refusals, find_warnings
 from handey.robot_file import load_robot
 
@@ -46,6 +47,9 @@ def assemble(entry: CellEntry) -> CellFile:
         parts=[made[part.name] for part in entry.parts],
         start=start,
     )
+    cell = with_depth_maps(cell, entry.depth_maps, entry.task, faults, warnings)
+    if faults:
+        raise InvalidInput(faults)
     model = _core.make_collision_model(cell)
     faults = find_refusals(entry, cell, model)
     if faults:

@@ -17,7 +17,6 @@ import numpy as np
 
 from handey.body_entry import BodyEntry, read_body
 from handey.depth_map import DepthMapEntry, read_depth_map
-from handey.errors import Fault, InvalidInput
 from handey.fields import Field
 from handey.pose import read_pose
 from handey.strict_yaml import Document, read_yaml
@@ -70,9 +69,9 @@ class CellFile:
 
     Attributes:
         file: the cell file; None for a cell made in a program.
-        cell: robot, fixtures and parts.
+        cell: robot, fixtures and parts; depth maps are fixtures, after those of the file.
         task: goals, order and finish.
-        depth_maps: checked, but not planned with in this version.
+        depth_maps: as the file gives them.
         warnings: for people.
         entry: the content of the file as it was read.
     """
@@ -93,19 +92,6 @@ class CellFile:
     def goals(self) -> tuple[Goal, ...]:
         """In the order of the file."""
         return self.task.goals
-
-    def require_plannable(self) -> None:
-        """Refuses what this version reads but does not plan with.
-
-        Raises:
-            InvalidInput: E_UNSUPPORTED for depth maps: a plan that ignored them might collide.
-        """
-        if self.depth_maps:
-            names = ", ".join(depth_map.name for depth_map in self.depth_maps)
-            message = f"obstacles from depth maps are not planned with in this version: {names}"
-            raise InvalidInput(
-                Fault("E_UNSUPPORTED", "depth_maps", message, self.entry.document.file)
-            )
 
 
 def read_cell(path: str | os.PathLike[str]) -> CellEntry:

@@ -80,7 +80,6 @@ def _plan_and_check(
     from handey.cell_file import load_cell
 
     cell = load_cell(options.cell)
-    cell.require_plannable()
     warn(options, cell.warnings)
     from handey import planner
 

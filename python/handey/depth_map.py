@@ -2,8 +2,7 @@
 
 A depth map is an obstacle known only by measurement: heights above a plane, or distances from a
 camera. Its file is checked here as far as its header, size, kind of number and, for arrays, its
-values go; nothing is decoded before its size is known. This version validates depth maps but does
-not plan with them.
+values go; nothing is decoded before its size is known. What becomes of it: `handey.measured`.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import math
 import os
 import struct
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +53,8 @@ class DepthMapEntry:
         scale: metres per unit of a depth image.
         intrinsics: of the camera; None for heights.
         explained, far: see the format [m].
+        content: the array as it was read, or the unpacked but still filtered rows of an image.
+        place: where the file gives it.
     """
 
     name: str
@@ -66,6 +67,8 @@ class DepthMapEntry:
     intrinsics: Intrinsics | None = None
     explained: float = EXPLAINED
     far: float = FAR
+    content: np.ndarray | bytes = field(default=b"", repr=False, compare=False)
+    place: Field | None = field(default=None, repr=False, compare=False)
 
 
 def read_depth_map(name: str, field: Field) -> DepthMapEntry | None:
@@ -97,7 +100,10 @@ def _read_heights(name: str, field: Field) -> DepthMapEntry | None:
     _require_measured(entries["heights"], array)
     if cell is None or X_WD is None or path is None:
         return None
-    return DepthMapEntry(name, "heights", path, (array.shape[0], array.shape[1]), X_WD, cell=cell)
+    return DepthMapEntry(
+        name, "heights", path, (array.shape[0], array.shape[1]), X_WD, cell, content=array,
+        place=entries["heights"],
+    )  # fmt: skip
 
 
 def _read_depth(name: str, field: Field) -> DepthMapEntry | None:
@@ -112,13 +118,17 @@ def _read_depth(name: str, field: Field) -> DepthMapEntry | None:
     )
     far = entries["far"].number(above=0.0, most=100.0) if "far" in entries else FAR
     path = entries["depth"].file()
-    shape = None if path is None else _depth_shape(entries["depth"], path, "scale" in entries)
+    content = None if path is None else _depth_content(entries["depth"], path, "scale" in entries)
+    shape = None if content is None else content[0]
     intrinsics = _read_intrinsics(entries["intrinsics"], shape) if "intrinsics" in entries else None
-    if path is None or shape is None or intrinsics is None or X_WD is None:
+    if path is None or content is None or intrinsics is None or X_WD is None:
         return None
     if scale is None or explained is None or far is None:
         return None
-    return DepthMapEntry(name, "depth", path, shape, X_WD, 0.0, scale, intrinsics, explained, far)
+    return DepthMapEntry(
+        name, "depth", path, content[0], X_WD, 0.0, scale, intrinsics, explained, far, content[1],
+        entries["depth"],
+    )  # fmt: skip
 
 
 def _read_intrinsics(field: Field, shape: tuple[int, int] | None) -> Intrinsics | None:
@@ -146,24 +156,30 @@ def _read_intrinsics(field: Field, shape: tuple[int, int] | None) -> Intrinsics 
     return Intrinsics(**values) if len(values) == 4 else None
 
 
-def _depth_shape(field: Field, path: Path, has_scale: bool) -> tuple[int, int] | None:
-    """Rows and columns of a depth image, its content checked."""
+def _depth_content(
+    field: Field, path: Path, has_scale: bool
+) -> tuple[tuple[int, int], np.ndarray | bytes] | None:
+    """Rows and columns of a depth image, and what it holds, checked."""
+    content: np.ndarray | bytes
     if path.suffix.lower() == ".png":
-        shape = _check_png(field, path)
+        found = _read_png(field, path)
+        if found is None:
+            return None
+        shape, content = found
         whole = True
     else:
         array = _read_array(field, path)
         if array is None:
             return None
-        shape, whole = (array.shape[0], array.shape[1]), array.dtype.kind != "f"
-        if not whole:
-            _require_measured(field, array, allow_none=True)
-    if shape is not None and whole and not has_scale:
+        shape, content, whole = (array.shape[0], array.shape[1]), array, array.dtype.kind != "f"
+        _require_measured(field, array)
+        _require_not_negative(field, array)
+    if whole and not has_scale:
         field.fault(
             "E_UNITS", "holds whole numbers of unknown unit; expected `scale`, the metres per unit"
         )
         return None
-    return shape
+    return shape, content
 
 
 def _read_array(field: Field, path: Path) -> np.ndarray | None:
@@ -204,19 +220,26 @@ def _array_problem(shape: tuple[int, ...], dtype: np.dtype[Any]) -> tuple[str, s
     return None
 
 
-def _require_measured(field: Field, array: np.ndarray, allow_none: bool = False) -> None:
-    """NaN is 'not measured'; an infinite value is a fault, and so are heights none measured."""
+def _require_measured(field: Field, array: np.ndarray) -> None:
+    """NaN is 'not measured'; an infinite value is a fault, and so is a map of nothing."""
     if np.isinf(array).any():
         row, column = np.argwhere(np.isinf(array))[0]
         field.fault(
             "E_NUMBER", f"entry [{row}, {column}] is infinite; expected a finite number or NaN"
         )
-    elif not allow_none and np.isnan(array).all():
+    elif np.isnan(array).all():
         field.fault("E_IMAGE", "has no measured entry: all are NaN")
 
 
-def _check_png(field: Field, path: Path) -> tuple[int, int] | None:
-    """Rows and columns of a 16-bit grey PNG, whose size is checked before it is unpacked."""
+def _require_not_negative(field: Field, array: np.ndarray) -> None:
+    if array.dtype.kind != "u" and (array < 0).any():
+        row, column = np.argwhere(array < 0)[0]
+        found = f"entry [{row}, {column}] is {array[row, column]}"
+        field.fault("E_NUMBER", f"{found}; expected a depth, or 0 or NaN for not measured")
+
+
+def _read_png(field: Field, path: Path) -> tuple[tuple[int, int], bytes] | None:
+    """Size and rows, still filtered, of a 16-bit grey PNG; its size is checked before unpacking."""
     try:
         if os.path.getsize(path) > MOST_BYTES:
             field.fault("E_TOO_BIG", f"'{path.name}' has more than {MOST_BYTES} bytes")
@@ -239,32 +262,35 @@ def _check_png(field: Field, path: Path) -> tuple[int, int] | None:
     if (bits, colour, interlace) != (16, 0, 0):
         field.fault("E_IMAGE", f"'{path.name}' is not a 16-bit grey image without interlace")
         return None
-    problem = _png_problem(content, rows * (1 + 2 * columns))
-    if problem:
-        field.fault("E_IMAGE", f"'{path.name}' is damaged: {problem}")
+    try:
+        return (rows, columns), _unpacked(content, rows * (1 + 2 * columns))
+    except (ValueError, zlib.error) as error:
+        field.fault("E_IMAGE", f"'{path.name}' is damaged: {error}")
         return None
-    return rows, columns
 
 
-def _png_problem(content: bytes, expected: int) -> str | None:
-    """What is wrong with the chunks of a PNG whose pixels unpack to `expected` bytes."""
+def _unpacked(content: bytes, expected: int) -> bytes:
+    """The rows in the chunks of a PNG, which unpack to `expected` bytes.
+
+    Raises:
+        ValueError: if the chunks are not whole, or the bytes not as many.
+    """
     packed, at = [], len(_PNG_SIGNATURE)
     while at + 12 <= len(content):
         length, kind = struct.unpack(">I4s", content[at : at + 8])
         body, check = content[at + 8 : at + 8 + length], content[at + 8 + length : at + 12 + length]
         if len(check) < 4:
-            return "it is cut off"
+            raise ValueError("it is cut off")
         if zlib.crc32(kind + body) != struct.unpack(">I", check)[0]:
-            return f"the checksum of chunk {kind!r} is wrong"
+            raise ValueError(f"the checksum of chunk {kind!r} is wrong")
         if kind == b"IDAT":
             packed.append(body)
         if kind == b"IEND":
             break
         at += 12 + length
     else:
-        return "it is cut off"
-    try:
-        unpacked = len(zlib.decompressobj().decompress(b"".join(packed), expected + 1))
-    except zlib.error as error:
-        return str(error)
-    return None if unpacked == expected else f"{unpacked} bytes of pixels, expected {expected}"
+        raise ValueError("it is cut off")
+    unpacked = zlib.decompressobj().decompress(b"".join(packed), expected + 1)
+    if len(unpacked) != expected:
+        raise ValueError(f"{len(unpacked)} bytes of pixels, expected {expected}")
+    return unpacked

@@ -109,14 +109,6 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
 
 def _refuse_unsupported(cell_file: CellFile) -> None:
     faults = []
-    if cell_file.depth_maps:
-        faults.append(
-            Fault(
-                "E_UNSUPPORTED",
-                "depth_maps",
-                "planning among depth maps is not offered by this version",
-            )
-        )
     for index, goal in enumerate(cell_file.goals):
         if not isinstance(goal, PlaceAt):
             faults.append(

@@ -20,6 +20,7 @@
 // world
 #include "handey/world/body.hpp"
 #include "handey/world/cell.hpp"
+#include "handey/world/depth_map.hpp"
 // collision
 #include "handey/collision/box_certificate.hpp"
 #include "handey/collision/certificate.hpp"

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import struct
 import zlib
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from handey.check.depth import surface_of
+from handey.check.depth import joined, probes_of, surface_of
 from handey.check.kinematics import forward
 from handey.check.shapes import Shape, transformed
 from handey.check.values import Array, fault, keys, number, pose, positive, text
@@ -23,7 +24,7 @@ from handey.check.values import Array, fault, keys, number, pose, positive, text
 if TYPE_CHECKING:
     from handey.check.cell import Cell
 
-__all__ = ["camera_surface", "near_surface", "read_camera", "read_png"]
+__all__ = ["camera_surface", "explained_pixels", "near_surface", "read_camera", "read_png"]
 
 EXPLAINED, FAR = 0.005, 0.3  # defaults [m]: format
 MOST_PIXELS = 2**24
@@ -47,23 +48,46 @@ def read_camera(folder: Path, value: dict[str, Any], file: str, place: str, cell
     z = depth[rows, columns]
     points = np.c_[(columns - cx) / fx * z, (rows - cy) / fy * z, z]
     world = transformed(pose(value.get("pose"), file, f"{place}.pose"), points)
-    known = near_surface(world, _known_triangles(cell), tolerance)
+    known = explained_pixels(world, cell, tolerance)
     filled = _holes_filled(depth, measured)
     filled[rows[known], columns[known]] = np.nan
     return camera_surface(filled, (fx, fy, cx, cy), far)
 
 
-def _known_triangles(cell: Cell) -> Array:
-    """All triangles of fixtures, parts and robot at the start, in the world (m, 3, 3)."""
-    found = [
-        transformed(body.pose, body.triangles().reshape(-1, 3))
-        for body in cell.fixtures + cell.parts
-    ]
+def explained_pixels(points: Array, cell: Cell, tolerance: float) -> np.ndarray:
+    """Which points (n, 3) of the world are that near to a body or the robot at its start (n,)?"""
+    known = [(body.pose, shape) for body in cell.fixtures + cell.parts for shape in body.shapes]
     frames = forward(cell.robot, cell.base, cell.start[None], np.array([cell.start_opening]))
     for i, link in enumerate(cell.robot.bodies):
-        for shape in link.shapes:
-            found.append(transformed(frames.matrix(i, 0), shape.triangles().reshape(-1, 3)))
-    return np.vstack(found).reshape(-1, 3, 3)
+        known += [(frames.matrix(i, 0), shape) for shape in link.shapes]
+    result = np.zeros(len(points), dtype=bool)
+    for X_WB, shape in sorted(known, key=lambda item: len(item[1].faces)):
+        open_ = np.flatnonzero(~result)
+        local = transformed(
+            np.asarray(np.linalg.inv(X_WB @ shape.pose), dtype=float), points[open_]
+        )
+        low, high = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
+        # The triangles of round shapes lie a little inside of them.
+        slack = tolerance + 1e-2 * float(max(high - low)) * (shape.kind in ("cylinder", "sphere"))
+        near = np.all((local >= low - slack) & (local <= high + slack), axis=1)
+        result[open_[near]] = _near_shape(local[near], shape, tolerance)
+    return result
+
+
+def _near_shape(points: Array, shape: Shape, tolerance: float) -> np.ndarray:
+    """Which points (n, 3) of the shape's frame lie within `tolerance` of its surface (n,)."""
+    if shape.kind == "mesh":
+        return near_surface(points, shape.vertices[shape.faces], tolerance)
+    if shape.kind == "sphere":
+        beyond = (np.linalg.norm(points, axis=1) - shape.size[0])[:, None]
+    elif shape.kind == "cylinder":
+        across = np.linalg.norm(points[:, :2], axis=1) - shape.size[0]
+        beyond = np.stack([across, np.abs(points[:, 2]) - shape.size[1] / 2], axis=1)
+    else:
+        beyond = np.abs(points) - np.array(shape.size) / 2
+    deepest = beyond.max(axis=1) if len(beyond) else np.zeros(0)
+    outside = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
+    return np.asarray(np.where(deepest <= 0, -deepest, outside) <= tolerance)
 
 
 def near_surface(points: Array, triangles: Array, tolerance: float) -> np.ndarray:
@@ -107,22 +131,26 @@ def _distance(points: Array, triangle: Array) -> Array:
 
 def _holes_filled(depth: Array, measured: np.ndarray) -> Array:
     """Pixels that were not measured get the least depth on the border of their hole."""
-    result = np.where(measured, depth, np.inf)
-    hole = ~measured
-    while True:  # the least depth spreads through each hole until nothing changes
-        padded = np.pad(result, 1, constant_values=np.inf)
-        least = np.minimum.reduce(
-            [padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]]
-        )
-        new = np.where(hole, np.minimum(result, least), result)
-        if np.array_equal(new, result):
-            return np.where(np.isfinite(result), result, np.nan)
-        result = new
+    index = np.arange(depth.size).reshape(depth.shape)
+    inner, border = [], []
+    for a, b in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        both = ~measured[a] & ~measured[b]
+        inner.append(np.stack([index[a][both], index[b][both]]))
+        for hole, edge in ((a, b), (b, a)):
+            meet = ~measured[hole] & measured[edge]
+            border.append(np.stack([index[hole][meet], index[edge][meet]]))
+    label = joined(depth.size, np.hstack(inner))
+    pixels, edges = np.hstack(border)
+    nearest = np.full(depth.size, np.inf)
+    np.minimum.at(nearest, label[pixels], depth.ravel()[edges])
+    filled = np.where(measured, depth, nearest[label].reshape(depth.shape))
+    return np.where(np.isfinite(filled), filled, np.nan)
 
 
 def camera_surface(depth: Array, lens: tuple[float, float, float, float], far: float) -> Shape:
     """The surface of the cones behind the pixels of an image; NaN is an empty pixel."""
     fx, fy, cx, cy = lens
+    lens_axes = ((0, fx, cx), (1, fy, cy))
     d = np.pad(depth, 1, constant_values=np.nan)
     quads: list[Array] = []
 
@@ -157,7 +185,21 @@ def camera_surface(depth: Array, lens: tuple[float, float, float, float], far: f
                 ring = [corner(x, y, low[some]) for x, y in (p, q)]
                 ring += [corner(x, y, high[some]) for x, y in (q, p)]
                 quads.append(np.stack(ring, axis=1))
-    return surface_of(np.vstack(quads))
+    where = probes_of(depth, depth + far)
+    z = depth[where]
+    probes = corner(where[1] - 0.5, where[0] - 0.5, z)
+
+    def inside(points: Array) -> np.ndarray:
+        result = points[:, 2] > 0
+        ahead = points[result]
+        j, i = (np.floor(f * ahead[:, k] / ahead[:, 2] + c + 0.5) for k, f, c in lens_axes)
+        seen = (i >= 0) & (i < depth.shape[0]) & (j >= 0) & (j < depth.shape[1])
+        front = depth[i[seen].astype(int), j[seen].astype(int)]
+        seen[seen] = (ahead[seen, 2] >= front) & (ahead[seen, 2] <= front + far)  # NaN: False
+        result[result] = seen
+        return result
+
+    return replace(surface_of(np.vstack(quads)), inside=inside, probes=probes)
 
 
 # ------------------------------------------------------------------------------------------- files

@@ -7,6 +7,7 @@ differ.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from handey.check.shapes import Shape
 from handey.check.values import Array, fault
 
-__all__ = ["column_surface", "read_heights", "surface_of"]
+__all__ = ["column_surface", "joined", "probes_of", "read_heights", "surface_of"]
 
 
 def read_heights(path: Path, file: str, place: str) -> Array:
@@ -58,7 +59,50 @@ def column_surface(heights: Array, side: float) -> Shape:
         # by itself.
         corners = [(x0, y0, zb), (x1, y1, zb), (x1, y1, za), (x0, y0, za)]
         quads.append(np.stack([np.stack(corner, axis=-1) for corner in corners], axis=1))
-    return surface_of(np.vstack(quads))
+    low = np.zeros_like(heights)
+    high = np.where(heights > 0, heights, np.nan)
+    where = probes_of(low, high)
+    probes = np.stack([(where[1] - 0.5) * side, (where[0] - 0.5) * side, low[where]], axis=-1)
+
+    def inside(points: Array) -> np.ndarray:
+        i, j = (np.floor(points[:, k] / side + 0.5) for k in (1, 0))
+        result = (i >= 0) & (i < heights.shape[0]) & (j >= 0) & (j < heights.shape[1])
+        z = points[result, 2]
+        result[result] = (z >= 0) & (z <= heights[i[result].astype(int), j[result].astype(int)])
+        return np.asarray(result)
+
+    return replace(surface_of(np.vstack(quads)), inside=inside, probes=probes)
+
+
+def probes_of(low: Array, high: Array) -> tuple[np.ndarray, ...]:
+    """One column of each group of columns that touch; NaN is no column. Rows and columns."""
+    full = np.isfinite(low) & np.isfinite(high)
+    index = np.arange(low.size).reshape(low.shape)
+    pairs = []
+    for a, b in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        meet = full[a] & full[b]
+        meet &= (np.maximum(low[a], low[b]) <= np.minimum(high[a], high[b])) & meet
+        pairs.append(np.stack([index[a][meet], index[b][meet]]))
+    label = joined(low.size, np.hstack(pairs))
+    first = np.unique(label[full.ravel()])
+    return np.unravel_index(first, low.shape)
+
+
+def joined(count: int, pairs: np.ndarray) -> np.ndarray:
+    """For each of `count` things the least thing that pairs (2, n) join it to (count,)."""
+    label = np.arange(count)
+    while True:
+        a, b = label[pairs[0]], label[pairs[1]]
+        apart = a != b
+        if not apart.any():
+            return label
+        pairs, a, b = pairs[:, apart], a[apart], b[apart]
+        np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
+        while True:
+            further = label[label]
+            if np.array_equal(further, label):
+                break
+            label = further
 
 
 def surface_of(quads: Array) -> Shape:

@@ -8,6 +8,7 @@ sorted into convex, closed or open. Not guaranteed: that a closed mesh does not 
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,9 @@ class Shape:
         faces: (m, 3) indices, outward counter-clockwise.
         closed: the inside belongs to it.
         convex: it equals its convex hull (to 1e-7 m).
+        inside: of a measured solid: which points (n, 3) of its own frame lie in it (n,); None: the
+            triangles tell.
+        probes: of a measured solid: a vertex of each part of it that does not touch another (k, 3).
     """
 
     kind: str
@@ -53,6 +57,8 @@ class Shape:
     faces: np.ndarray
     closed: bool = True
     convex: bool = True
+    inside: Callable[[Array], np.ndarray] | None = None
+    probes: Array | None = None
 
     def points(self) -> Array:
         """The vertices in the body frame (n, 3)."""

@@ -9,6 +9,7 @@ every such translation is tried. A depth may be over-estimated, never under-esti
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import coal
@@ -29,8 +30,9 @@ class Piece:
     Attributes:
         geometry: the engine's object, in the shape frame. pose: shape frame in the body. centres,
         radii: spheres that cover the piece (k, 3), (k,), in the body frame. box_centre, box_half:
-        box around the piece in the shape frame. solid: triangles (body frame) of a closed mesh that
-        the engine sees as a skin only, else None.
+        box around the piece in the shape frame.
+        inside: of a closed mesh, which the engine sees as a skin only: which points (n, 3) of the
+        body frame lie in it; else None.
         probes: a point of each connected part of the surface (body frame).
         directions: ways to push it free (body frame).
     """
@@ -41,7 +43,7 @@ class Piece:
     radii: Array
     box_centre: Array
     box_half: Array
-    solid: Array | None
+    inside: Callable[[Array], np.ndarray] | None
     probes: Array
     directions: Array
 
@@ -59,7 +61,9 @@ def pieces_of(shapes: list[Shape]) -> list[Piece]:
     """The pieces of a body; closed meshes made of convex parts are taken apart."""
     result = []
     for shape in shapes:
-        if shape.kind == "mesh" and not shape.convex:
+        if shape.inside is not None:
+            result.append(_piece(shape, None if shape.probes is None else list(shape.probes)))
+        elif shape.kind == "mesh" and not shape.convex:
             parts = connected_parts(shape)
             if len(parts) > 1 and shape.closed and all(part.convex for part in parts):
                 result += [_piece(part) for part in parts]
@@ -83,9 +87,26 @@ def _piece(shape: Shape, probes: list[Array] | None = None) -> Piece:
     probe = np.array(probes if probes is not None else [shape.vertices[0]])
     return Piece(
         _geometry(shape), shape.pose, transformed(shape.pose, centres), radii, (low + high) / 2,
-        (high - low) / 2, shape.triangles() if skin and shape.closed else None,
+        (high - low) / 2, _test_of_inside(shape) if skin and shape.closed else None,
         transformed(shape.pose, probe), _directions(shape),
     )  # fmt: skip
+
+
+def _test_of_inside(shape: Shape) -> Callable[[Array], np.ndarray]:
+    """Which points (n, 3) of the body frame lie in a closed mesh?"""
+    if shape.inside is not None:
+        known, X_SB = shape.inside, np.asarray(np.linalg.inv(shape.pose), dtype=float)
+        return lambda points: known(transformed(X_SB, points))
+    triangles = shape.triangles()
+    low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
+
+    def test(points: Array) -> np.ndarray:
+        result = np.all((points >= low) & (points <= high), axis=1)
+        for k in np.flatnonzero(result):
+            result[k] = _inside(triangles, points[k])
+        return np.asarray(result)
+
+    return test
 
 
 def _cover(low: Array, high: Array) -> tuple[Array, Array]:
@@ -169,11 +190,11 @@ class Engine:
         """Is one of them inside the other's mesh, though the surfaces need not meet?"""
         move = np.zeros(3) if shift is None else shift
         for outer, inner, sign in ((a, b, -1.0), (b, a, 1.0)):
-            if outer.piece.solid is None:
+            if outer.piece.inside is None:
                 continue
             world = inner.piece.probes @ inner.R.T + inner.p + sign * move
             points = (world - outer.p) @ outer.R
-            if any(_inside(outer.piece.solid, point) for point in points):
+            if outer.piece.inside(points).any():
                 return True
         return False
 
@@ -218,8 +239,6 @@ class Engine:
 
 def _inside(triangles: Array, point: Array) -> bool:
     """Does a closed surface wind about a point? Solid angles: Van Oosterom and Strackee."""
-    if np.any(point < triangles.min(axis=(0, 1))) or np.any(point > triangles.max(axis=(0, 1))):
-        return False
     a, b, c = np.moveaxis(triangles - point, 1, 0)
     la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
     numerator = np.einsum("ij,ij->i", a, np.cross(b, c))
