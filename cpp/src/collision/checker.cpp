@@ -58,14 +58,18 @@ std::vector<Obstacle> make_obstacles(const CollisionModel::Impl& model, const Ce
     obstacles.push_back({cell.fixtures[i].name,
                          {BodyRef::Kind::Fixture, static_cast<int>(i)},
                          &model.fixtures[i],
-                         X_RW * cell.fixtures[i].X_WB});
+                         X_RW * cell.fixtures[i].X_WB,
+                         {},
+                         0});
   }
   for (std::size_t i = 0; i < cell.parts.size(); ++i) {
     if (cell.held && cell.held->part == static_cast<int>(i)) continue;
     obstacles.push_back({cell.parts[i].name,
                          {BodyRef::Kind::Part, static_cast<int>(i)},
                          &model.parts[i],
-                         X_RW * cell.parts[i].X_WB});
+                         X_RW * cell.parts[i].X_WB,
+                         {},
+                         0});
   }
   return obstacles;
 }
@@ -139,6 +143,8 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const CollisionModel> model_in, con
     if (!model->is_finger[static_cast<std::size_t>(b)]) mover_pairs.emplace_back(b, bodies);
   }
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    obstacles[o].centre = obstacles[o].X_RB * obstacles[o].geometry->centre;
+    obstacles[o].first_piece = static_cast<int>(obstacle_pieces.size());
     for (const auto& piece : obstacles[o].geometry->pieces) {
       obstacle_pieces.push_back(
           {piece.get(), static_cast<int>(o), obstacles[o].X_RB * piece->box.X_BO});

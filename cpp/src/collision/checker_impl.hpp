@@ -30,6 +30,8 @@ struct Obstacle {
   BodyRef ref;
   const BodyGeometry* geometry = nullptr;
   Pose X_RB = Pose::Identity();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the geometry's ball, in R
+  int first_piece = 0;                               ///< in the checker's obstacle_pieces
 };
 
 /// The bodies that stand in the cell: fixtures, then the parts that are not held.
@@ -102,18 +104,39 @@ bool CollisionChecker::Impl::visit_near(const Reach& reach, const Visit& visit) 
     const Pose& X = X_RM[static_cast<std::size_t>(m)];
     const Eigen::Vector3d& centre = mover_centres[static_cast<std::size_t>(m)];
     const double coarse = reach(PiecePair{m, -1, -1, -1});
-    for (std::size_t o = 0; o < obstacle_pieces.size(); ++o) {
-      const collision::ObstaclePiece& obstacle = obstacle_pieces[o];
-      if (!mover.against[static_cast<std::size_t>(obstacle.obstacle)]) continue;
+    const double radius = mover.geometry->radius;
+    const auto visit_piece = [&](int o) {
+      const collision::ObstaclePiece& obstacle = obstacle_pieces[static_cast<std::size_t>(o)];
       const Eigen::Vector3d& half = obstacle.piece->box.half;
-      if (collision::ball_to_box(centre, mover.geometry->radius, obstacle.X_RO, half) > coarse)
-        continue;
+      if (collision::ball_to_box(centre, radius, obstacle.X_RO, half) > coarse) return false;
       for (std::size_t p = 0; p < mover.geometry->pieces.size(); ++p) {
         const collision::Piece& own = *mover.geometry->pieces[p];
         const Eigen::Vector3d at = X * own.box.X_BO.translation();
-        const PiecePair pair{m, static_cast<int>(p), -1, static_cast<int>(o)};
+        const PiecePair pair{m, static_cast<int>(p), -1, o};
         if (collision::ball_to_box(at, own.radius, obstacle.X_RO, half) > reach(pair)) continue;
         if (visit(pair)) return true;
+      }
+      return false;
+    };
+    for (std::size_t o = 0; o < obstacles.size(); ++o) {
+      if (!mover.against[o]) continue;
+      const collision::Obstacle& obstacle = obstacles[o];
+      const collision::BodyGeometry& geometry = *obstacle.geometry;
+      const double balls = radius + geometry.radius + coarse;
+      if (balls < 0.0 || (centre - obstacle.centre).squaredNorm() > balls * balls) continue;
+      const int first = obstacle.first_piece;
+      if (geometry.has_tree()) {
+        const Eigen::Vector3d local =
+            obstacle.X_RB.linear().transpose() * (centre - obstacle.X_RB.translation());
+        if (geometry.tree.visit_near(local, radius, coarse,
+                                     [&](int piece) { return visit_piece(first + piece); })) {
+          return true;
+        }
+        continue;
+      }
+      const int count = static_cast<int>(geometry.pieces.size());
+      for (int piece = 0; piece < count; ++piece) {
+        if (visit_piece(first + piece)) return true;
       }
     }
   }

@@ -39,6 +39,7 @@ BodyGeometry make_body(const std::string& name, const std::vector<Shape>& shapes
     body.radius = std::max(body.radius, reach);
   }
   body.radius = std::min(body.radius, 0.5 * extent.sizes().norm());
+  if (body.has_tree()) body.tree = collision::PieceTree(body.pieces);
   return body;
 }
 

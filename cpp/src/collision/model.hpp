@@ -9,6 +9,7 @@
 
 #include "handey/collision/checker.hpp"
 #include "piece.hpp"
+#include "piece_tree.hpp"
 
 namespace handey::collision {
 
@@ -18,6 +19,9 @@ struct BodyGeometry {
   Pieces pieces;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0.0;
+  PieceTree tree;  ///< of bodies with many pieces; else empty
+  bool has_tree() const { return static_cast<int>(pieces.size()) > kManyPieces; }
+  static constexpr int kManyPieces = 8;  // Choice: fewer are looked at one by one
 };
 
 }  // namespace handey::collision

@@ -48,6 +48,34 @@ TEST(Checker, AnArmFoldedIntoItselfIsSeen) {
   EXPECT_LT(folded, 400);
 }
 
+TEST(Checker, ABodyOfManyShapesIsTheSameAsManyBodies) {
+  const Cell many = cluttered_cell(60);
+  Cell one = puma_cell();
+  Body heap;
+  heap.name = "heap";
+  heap.X_WB = at(0.2, -0.1, 0.05);
+  for (const Body& body : many.fixtures) {
+    if (body.name == "table") continue;
+    Shape shape = body.shapes.front();
+    shape.X_BS = heap.X_WB.inverse() * body.X_WB;
+    heap.shapes.push_back(shape);
+  }
+  one.fixtures.push_back(heap);
+  CollisionChecker apart(make_collision_model(many), many),
+      together(make_collision_model(one), one);
+  Random random(2);
+  int hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Configuration drawn = random.configuration(*many.robot);
+    EXPECT_NEAR(apart.closest(drawn, 0.5).distance, together.closest(drawn, 0.5).distance, 1e-9);
+    const bool free = apart.is_free(drawn, 0.01);
+    EXPECT_EQ(free, together.is_free(drawn, 0.01));
+    hits += free ? 0 : 1;
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_LT(hits, 400);
+}
+
 TEST(Checker, ABodyWhollyInsideAMeshCollides) {
   // A small part in the hand, in the middle of a large solid that is not convex: surfaces are far
   // apart.
