@@ -23,7 +23,7 @@ import handey.cell_file
 from handey import cli
 from handey.errors import Fault, InvalidInput
 from handey.plan import ACTIONS, Plan, Step
-from handey.report import GrossMotion, Search
+from handey.report import GrossMotion, LocalMotion, Search
 from handey.task import PlaceOn
 
 
@@ -42,6 +42,19 @@ class StandInReport:
             GrossMotion(0, 0, "transit", Search("slices", 0.0012)),
             GrossMotion(4, 0, "transfer", Search("RRT-Connect", 0.034, "no free cell at the goal")),
         ]
+    )
+
+    local_motions: list = field(
+        default_factory=lambda: [
+            LocalMotion(1, 0, "approach", "plane search"),
+            LocalMotion(3, 0, "depart", "straight"),
+        ]
+    )
+    planners: dict = field(
+        default_factory=lambda: {
+            "approach": {"quasipotential": 2, "plane search": 1},
+            "depart": {"straight": 1},
+        }
     )
 
     def __post_init__(self):
@@ -166,6 +179,15 @@ def test_planner_and_time_of_each_gross_motion_are_told(workshop, capsys):
         "fallback_reason": "",
     }
     assert second["fallback_reason"] == "no free cell at the goal"
+
+
+def test_planners_of_motions_near_obstacles_are_told_and_how_often_each_was_needed(
+    workshop, capsys
+):
+    assert cli.main(["plan", "cell.yaml"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "    motions near obstacles: approach plane search, depart straight" in lines
+    assert "  planners: approach quasipotential 2, plane search 1; depart straight 1" in lines
 
 
 @pytest.mark.parametrize("verdict", ["infeasible", "unknown"])

@@ -240,6 +240,31 @@ def test_every_gross_motion_of_the_plan_is_reported_with_planner_and_time(cell: 
     assert spent <= sum(result.report.stages[s] for s in ("transit", "transfer", "home"))
 
 
+@pytest.mark.parametrize("cell", ["demo", "two_goals", "between_walls"])
+def test_the_planner_of_every_motion_near_obstacles_is_reported(cell: str) -> None:
+    result = handey.plan(handey.load_cell(CELLS / f"{cell}.yaml"))
+    assert result.plan is not None
+    report, steps = result.plan.report, result.plan.steps
+    actions = ("approach", "depart", "deposit", "withdraw")
+    near = [i for i, step in enumerate(steps) if step.action in actions]
+    assert near and [motion["step"] for motion in report["local_motions"]] == near
+    for motion in report["local_motions"]:
+        step = steps[motion["step"]]
+        assert (motion["action"], motion["goal"]) == (step.action, step.goal)
+        assert report["planners"][motion["action"]][motion["planner"]] >= 1
+    for action in actions:
+        given = sum(report["planners"][action].values())
+        assert given >= sum(step.action == action for step in steps)
+
+
+def test_the_report_tells_how_wide_the_jaws_open_and_close() -> None:
+    result = handey.plan(handey.load_cell(CELLS / "demo.yaml"))
+    assert result.plan is not None
+    jaws = result.plan.report["goals"][0]["jaws"]
+    step = next(step for step in result.plan.steps if step.action == "grasp")
+    assert jaws == {"open": step.opening[0], "closed": step.opening[-1]}
+
+
 def test_random_direct_cells_are_planned_validly_and_repeatably(tmp_path: Path) -> None:
     cells = random_cells.direct_cells(
         seed=3, count=12, parts=random_cells.own_parts(), folder=tmp_path

@@ -7,12 +7,13 @@ motion if there is room, else after it. Every motion that leaves here is certifi
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from handey import _core
 from handey.report import Search
 
-__all__ = ["Journey", "Search", "go", "open_and_go"]
+__all__ = ["Journey", "Search", "go", "go_straight", "open_and_go"]
 
 
 @dataclass(frozen=True)
@@ -35,21 +36,49 @@ class Journey:
         return bool(self.path)
 
 
+def go_straight(
+    checker: _core.CollisionChecker,
+    start: _core.Configuration,
+    goals: list[_core.Configuration],
+    certificate: _core.CertificateOptions,
+) -> Journey:
+    """The straight edge to the first of the goals to which it is free."""
+    begin = time.process_time()
+    for index, goal in enumerate(goals):
+        if _core.certify_edge(checker, start, goal, certificate).is_free:
+            cpu_s = time.process_time() - begin
+            return Journey([start, goal], index, "", Search("straight", cpu_s))
+    return Journey(reason="no straight edge is free")
+
+
 def go(
     checker: _core.CollisionChecker,
     start: _core.Configuration,
     goals: list[_core.Configuration],
     options: _core.GrossOptions,
+    table: Callable[[], _core.ArmTable | None],
 ) -> Journey:
-    """Plan a gross motion to one of some goals with the start's opening."""
+    """Plan a gross motion to one of some goals with the start's opening.
+
+    Args:
+        checker: of the cell as it is then.
+        start: where the arm is.
+        goals: with the start's opening, the best first.
+        options: budgets.
+        table: makes or reads maps of the arm's plane; asked only where no straight edge is free.
+    """
+    journey = go_straight(checker, start, goals, options.sampling.certificate)
+    if journey:
+        return journey
     begin = time.process_time()
+    options.free_space.table = table()
     motion = _core.plan_gross_motion(checker, start, goals, options)
     cpu_s = time.process_time() - begin
     if not motion:
         return Journey(reason=motion.reason)
     # Empty unless the slices were asked and gave nothing.
-    fallback = getattr(motion, "slices_reason", "")
-    return Journey(list(motion.path), motion.goal, "", Search(motion.planner, cpu_s, fallback))
+    search = Search(motion.planner, cpu_s, motion.slices_reason)
+    return Journey(list(motion.path), motion.goal, "", search)
 
 
 def open_and_go(
@@ -58,18 +87,19 @@ def open_and_go(
     goal: _core.Configuration,
     options: _core.GrossOptions,
     certificate: _core.CertificateOptions,
+    table: Callable[[], _core.ArmTable | None],
 ) -> Journey:
     """A gross motion with a change of opening before it where there is room, else after it."""
     if start.opening == goal.opening:
-        return go(checker, start, [goal], options)
+        return go(checker, start, [goal], options, table)
     opened = _core.Configuration(q=start.q, opening=goal.opening)
     if _core.certify_edge(checker, start, opened, certificate).is_free:
-        journey = go(checker, opened, [goal], options)
+        journey = go(checker, opened, [goal], options, table)
         if not journey:
             return journey
         return Journey([start, *journey.path], 0, "", journey.search)
     closed = _core.Configuration(q=goal.q, opening=start.opening)
-    journey = go(checker, start, [closed], options)
+    journey = go(checker, start, [closed], options, table)
     if not journey:
         return journey
     if not _core.certify_edge(checker, closed, goal, certificate).is_free:

@@ -9,12 +9,15 @@ Not guaranteed: a grasp given up here may still be feasible; the reason tells wh
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from handey import _core
-from handey.gross_motion import Search, go, open_and_go
+from handey.gross_motion import Search, go, go_straight, open_and_go
+from handey.lift import Lift, lift
 from handey.report import StageClock
 
 __all__ = [
@@ -27,11 +30,16 @@ __all__ = [
     "find_reach",
 ]
 
+# How the planners of an approach are called in reports.
+PLANNERS = {
+    "Straight": "straight",
+    "Quasipotential": "quasipotential",
+    "PlaneSearch": "plane search",
+    "Arm": "RRT-Connect",
+}
 # Choice: the pads are certified up to this far from the faces, each side; the last stretch is the
 # contact itself [m].
 CLOSING_GAP = 3e-4
-# Choice: level directions, and how far each is tried [m], for a part that also touches walls.
-DIRECTIONS_AWAY, STEP_AWAY = 16, 1.5e-3
 
 
 @dataclass(frozen=True)
@@ -62,7 +70,8 @@ class Workspace:
         current: where the arm is, and the opening.
         home: configurations to return to after the goal; None to stay.
         clock: CPU seconds by stage.
-        table: maps of the arm's plane, for the gross motions; None: they do without.
+        table: makes or reads maps of the arm's plane, for gross motions that are not straight.
+        given: how often each planner gave a motion near obstacles, by (action, planner).
     """
 
     model: _core.CollisionModel
@@ -71,7 +80,8 @@ class Workspace:
     current: _core.Configuration
     home: np.ndarray | None
     clock: StageClock
-    table: _core.ArmTable | None = None
+    table: Callable[[], _core.ArmTable | None] = lambda: None
+    given: Counter[tuple[str, str]] = field(default_factory=Counter)
 
 
 @dataclass(frozen=True)
@@ -83,20 +93,23 @@ class Motion:
         path: waypoints.
         held: the part is in the hand.
         search: how it was found, of gross motions.
+        planner: what gave it, of motions near obstacles.
     """
 
     action: str
     path: list[_core.Configuration]
     held: bool = False
     search: Search | None = None
+    planner: str = ""
 
 
 @dataclass(frozen=True)
 class Placing:
-    """A certified way to put the part down and leave it."""
+    """A certified way to put the part down and leave it; the deposit is a lift, reversed."""
 
     deposit: list[_core.Configuration]
     withdraw: list[_core.Configuration]
+    planners: tuple[str, str]
 
 
 @dataclass
@@ -119,15 +132,27 @@ class Carry:
     end: _core.Configuration | None = None
 
 
-@dataclass(frozen=True)
+@dataclass
 class Reach:
-    """A certified approach and departure for one grasp, with the ways to place it."""
+    """A certified approach and departure for one grasp, with the ways to place it.
+
+    Attributes:
+        grasp: where the hand closes.
+        approach: path of the open hand.
+        depart: path of the part out of contact.
+        planners: what gave the approach and the departure.
+        X_HP: the part in the grasp frame, shape (4, 4).
+        places: ways to place it that are known, at least one.
+        others: finds more, when asked.
+    """
 
     grasp: _core.GraspPose
     approach: list[_core.Configuration]
     depart: list[_core.Configuration]
-    places: list[Placing]
+    planners: tuple[str, str]
     X_HP: np.ndarray
+    places: list[Placing]
+    others: Iterator[Placing]
 
 
 def _at(q: np.ndarray, opening: float) -> _core.Configuration:
@@ -151,6 +176,7 @@ def find_reach(
         approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
     if not approach:
         return Carry("approach", approach.reason)
+    work.given["approach", _planner_of(approach)] += 1
     grasp, path = approach.grasp, list(approach.path)
     q = path[-1].q
     X_WP = scene.cell.parts[scene.part].X_WB
@@ -174,23 +200,58 @@ def find_reach(
         if not closing.is_free:
             return Carry("approach", f"the closing fingers meet {closing.hit.b}")
         depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, options)
-    if not depart.found:
+    if not depart:
         return Carry("depart", depart.reason)
+    work.given["depart", depart.planner] += 1
 
+    reasons: list[tuple[str, str]] = []
+    others = _placings(work, pair, grasp, q, X_HP, options, reasons)
+    first = next(others, None)
+    if first is None:
+        return Carry(*(reasons or [("deposit", "no configuration at the destination")])[-1])
+    planners = (_planner_of(approach), depart.planner)
+    return Reach(grasp, path, depart.path, planners, X_HP, [first], others)
+
+
+def _planner_of(approach: _core.ApproachResult) -> str:
+    return PLANNERS[approach.planner.name]
+
+
+def _placings(
+    work: Workspace,
+    pair: _core.RankedPair,
+    grasp: _core.GraspPose,
+    q: np.ndarray,
+    X_HP: np.ndarray,
+    options: DirectOptions,
+    reasons: list[tuple[str, str]],
+) -> Iterator[Placing]:
+    """Ways to put the part down and leave it, the arm nearest to `q` first."""
+    scene = work.scene
     goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
-    places, reason = [], "no configuration at the destination"
     for q_place in _nearest_first(work, grasp.q_place, q)[: options.most_places]:
         with work.clock("deposit"):
             deposit = _lift(work, goal_cell, _at(q_place, grasp.width), X_HP, options)
-        if not deposit.found:
-            reason = f"deposit: {deposit.reason}"
+        if not deposit:
+            reasons.append(("deposit", deposit.reason))
             continue
-        withdraw, reason = _withdraw(work, goal_cell, pair, grasp, q_place, options)
+        work.given["deposit", deposit.planner] += 1
+        withdraw, planner, reason = _withdraw(work, goal_cell, pair, grasp, q_place, options)
         if withdraw:
-            places.append(Placing(list(deposit.path)[::-1], withdraw))
-    if not places:
-        return Carry("deposit" if reason.startswith("deposit") else "withdraw", reason)
-    return Reach(grasp, path, list(depart.path), places, X_HP)
+            work.given["withdraw", planner] += 1
+            yield Placing(deposit.path[::-1], withdraw, (deposit.planner, planner))
+        else:
+            reasons.append(("withdraw", reason))
+
+
+def _lift(
+    work: Workspace,
+    cell: _core.Cell,
+    start: _core.Configuration,
+    X_HP: np.ndarray,
+    options: DirectOptions,
+) -> Lift:
+    return lift(work.model, work.solver, cell, work.scene.part, start, X_HP, options.retreat)
 
 
 def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
@@ -203,7 +264,12 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     with work.clock("transit"):
         checker = _core.CollisionChecker(work.model, scene.cell)
         transit = open_and_go(
-            checker, work.current, reach.approach[0], options.gross, options.approach.certificate
+            checker,
+            work.current,
+            reach.approach[0],
+            options.gross,
+            options.approach.certificate,
+            work.table,
         )
     if not transit:
         return Carry("transit", transit.reason)
@@ -211,8 +277,13 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     with work.clock("transfer"):
         held = scene.cell.with_held(scene.part, reach.X_HP)
         checker = _core.CollisionChecker(work.model, held)
-        goals = [placing.deposit[0] for placing in reach.places]
-        transfer = go(checker, reach.depart[-1], goals, options.gross)
+        transfer = go_straight(
+            checker, reach.depart[-1], _goals(reach), options.gross.sampling.certificate
+        )
+    if not transfer:
+        reach.places += list(reach.others)
+        with work.clock("transfer"):
+            transfer = go(checker, reach.depart[-1], _goals(reach), options.gross, work.table)
     if not transfer:
         return Carry("transfer", transfer.reason)
     placing = reach.places[transfer.goal]
@@ -221,20 +292,20 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     opened = placing.withdraw[0].opening
     motions = [
         Motion("transit", transit.path, search=transit.search),
-        Motion("approach", reach.approach),
+        Motion("approach", reach.approach, planner=reach.planners[0]),
         Motion("grasp", [_at(q_pick, grasp.opening), _at(q_pick, grasp.width)]),
-        Motion("depart", reach.depart, held=True),
+        Motion("depart", reach.depart, held=True, planner=reach.planners[1]),
         Motion("transfer", transfer.path, held=True, search=transfer.search),
-        Motion("deposit", placing.deposit, held=True),
+        Motion("deposit", placing.deposit, held=True, planner=placing.planners[0]),
         Motion("release", [_at(q_place, grasp.width), _at(q_place, opened)]),
-        Motion("withdraw", placing.withdraw),
+        Motion("withdraw", placing.withdraw, planner=placing.planners[1]),
     ]
     end = placing.withdraw[-1]
     if work.home is not None:
         with work.clock("home"):
             goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
             checker = _core.CollisionChecker(work.model, goal_cell)
-            home = go(checker, end, [_at(work.home, end.opening)], options.gross)
+            home = go(checker, end, [_at(work.home, end.opening)], options.gross, work.table)
         if not home:
             return Carry("home", home.reason)
         motions.append(Motion("transit", home.path, search=home.search))
@@ -243,63 +314,14 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     return Carry("done", "", motions, reach.X_HP, grasp, end)
 
 
+def _goals(reach: Reach) -> list[_core.Configuration]:
+    return [placing.deposit[0] for placing in reach.places]
+
+
 def _nearest_first(work: Workspace, solutions: list[np.ndarray], q: np.ndarray) -> list[np.ndarray]:
     """Order configurations by the travel time of the slowest joint from q."""
     velocity = np.array([joint.limit.velocity for joint in work.scene.cell.robot.joints])
     return sorted(solutions, key=lambda other: float(np.max(np.abs(other - q) / velocity)))
-
-
-def _lift(
-    work: Workspace,
-    cell: _core.Cell,
-    start: _core.Configuration,
-    X_HP: np.ndarray,
-    options: DirectOptions,
-) -> _core.RetreatResult:
-    """The longest of a few lifts of the part, held at `start`, off what it touches in `cell`."""
-    scene = work.scene
-    touches = _core.touching_bodies(work.model, cell, scene.part)
-    held = cell.with_held(scene.part, X_HP)
-    in_contact = _core.CollisionChecker(work.model, held, _core.Allowance(held_touches=touches))
-    clear = _core.CollisionChecker(work.model, held)
-    back = -_core.hand_in_world(cell, start.q)[:3, 2]
-    away = _away(work, cell) if len(touches) > 1 else None
-    best = None
-    for direction in _directions(back, away):
-        result = _core.plan_retreat(
-            in_contact, clear, work.solver, start, direction, options.retreat
-        )
-        if result.found and (best is None or result.travelled > best.travelled):
-            best = result
-        if result.found and result.travelled >= 0.99 * options.retreat.most:
-            break
-    return best if best is not None else result
-
-
-def _away(work: Workspace, cell: _core.Cell) -> np.ndarray | None:
-    """The middle of the level directions in which a lift leaves all that the part touches."""
-    part = work.scene.part
-    X_WP = cell.parts[part].X_WB
-    leaving = []
-    for angle in np.linspace(0.0, 2 * np.pi, DIRECTIONS_AWAY, endpoint=False):
-        aside = np.array([np.cos(angle), np.sin(angle), 0.0])
-        moved = X_WP.copy()
-        moved[:3, 3] += STEP_AWAY * (aside + np.array([0.0, 0.0, 1.0]))
-        if not _core.touching_bodies(work.model, cell.with_part_at(part, moved), part):
-            leaving.append(aside)
-    middle = np.sum(leaving, axis=0) if leaving else np.zeros(3)
-    length = np.linalg.norm(middle)
-    return middle / length if length > 0.1 else None
-
-
-def _directions(back: np.ndarray, away: np.ndarray | None) -> list[np.ndarray]:
-    """Straight up, then up and away from a wall, then up and back, then back along the hand."""
-    up = np.array([0.0, 0.0, 1.0])
-    from_wall = [] if away is None else [up + share * away for share in (0.3, 1.0)]
-    slanted = [up + share * back for share in (0.3, 1.0)]
-    candidates = [up, *from_wall, *slanted, back]
-    unit = [d / np.linalg.norm(d) for d in candidates if np.linalg.norm(d) > 0.1]
-    return [d for i, d in enumerate(unit) if all(d @ other < 0.999 for other in unit[:i])]
 
 
 def _withdraw(
@@ -309,8 +331,8 @@ def _withdraw(
     grasp: _core.GraspPose,
     q_place: np.ndarray,
     options: DirectOptions,
-) -> tuple[list[_core.Configuration], str]:
-    """Open the fingers at the destination and draw the hand back, straight or by a slide."""
+) -> tuple[list[_core.Configuration], str, str]:
+    """Open the fingers at the destination and draw the hand back: path, planner, reason."""
     scene = work.scene
     with work.clock("withdraw"):
         checker = _core.CollisionChecker(work.model, goal_cell)
@@ -330,7 +352,7 @@ def _withdraw(
                 options.approach.certificate,
             )
         if not opening.is_free:
-            return [], f"the opening fingers meet {opening.hit.b}"
+            return [], "", f"the opening fingers meet {opening.hit.b}"
         hand = _core.hand_in_world(goal_cell, q_place)
         back, reason = -hand[:3, 2], ""
         for direction in [back, *(_turned(hand, angle) for angle in (0.35, -0.35, 0.8, -0.8))]:
@@ -338,7 +360,7 @@ def _withdraw(
                 checker, checker, work.solver, opened, direction, options.retreat
             )
             if result.found:
-                return list(result.path), ""
+                return list(result.path), "straight", ""
             reason = reason or result.reason
         # The slide of the approach, planned at the destination and driven backwards.
         there = _core.GraspScene(
@@ -346,8 +368,8 @@ def _withdraw(
         )
         slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
         if slide.found and np.array_equal(slide.path[-1].q, q_place):
-            return list(slide.path)[::-1], ""
-    return [], reason
+            return list(slide.path)[::-1], _planner_of(slide), ""
+    return [], "", reason
 
 
 def _turned(hand: np.ndarray, angle: float) -> np.ndarray:

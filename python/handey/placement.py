@@ -10,7 +10,7 @@ placements of a part on a table.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
@@ -20,12 +20,13 @@ import numpy as np
 if TYPE_CHECKING:
     from handey import _core
 
-__all__ = ["Standing", "examine_standing", "stands_stably"]
+__all__ = ["TOUCHING", "Standing", "examine_standing", "stands_stably"]
 
 CONTACT_GAP = 6e-4  # of the format: what is this near above a surface stands on it [m]
 DEEPEST_CONTACT = (
     6e-4  # bodies may overlap by 0.5 mm where they touch; a little more for rounding [m]
 )
+TOUCHING = CONTACT_GAP + 1e-5  # what can carry a part is as near to it [m]
 LEAST_WIDTH = 2e-3  # of the format [m]
 STEEPEST = (
     0.1  # Choice: least vertical share of a normal; steeper than 84 degrees is a wall, not a ground
@@ -56,13 +57,20 @@ def stands_stably(cell: _core.Cell, part: int, X_WP: np.ndarray) -> bool:
     return examine_standing(cell, part, X_WP).stable
 
 
-def examine_standing(cell: _core.Cell, part: int, X_WP: np.ndarray) -> Standing:
+def examine_standing(
+    cell: _core.Cell,
+    part: int,
+    X_WP: np.ndarray,
+    near: Sequence[_core.BodyRef] | None = None,
+) -> Standing:
     """How a part stands at a pose, on the fixtures and the other parts where they are in the cell.
 
     Args:
         cell: fixtures and parts; a held part carries nothing.
         part: index in the cell's parts.
         X_WP: the part in the world (4, 4).
+        near: bodies that can carry it there, with all within TOUCHING of it; None: all are looked
+            at, which is slow where there are many or round ones.
 
     Raises:
         InvalidInput: if the part has no shape.
@@ -74,7 +82,7 @@ def examine_standing(cell: _core.Cell, part: int, X_WP: np.ndarray) -> Standing:
     downward = _facing(_triangles(body, X_WP), up=False)
     held = None if cell.held is None else cell.held.part
     points, on = [], []
-    for name, triangles in _grounds(cell, {part, held}):
+    for name, triangles in _grounds(cell, {part, held}, near):
         found = contact_points(downward, triangles)
         if len(found):
             points.append(found)
@@ -93,12 +101,20 @@ def examine_standing(cell: _core.Cell, part: int, X_WP: np.ndarray) -> Standing:
     return Standing(True, tuple(on), width, "")
 
 
-def _grounds(cell: _core.Cell, left_out: set[int | None]) -> Iterator[tuple[str, np.ndarray]]:
+def _grounds(
+    cell: _core.Cell, left_out: set[int | None], near: Sequence[_core.BodyRef] | None
+) -> Iterator[tuple[str, np.ndarray]]:
     """Name and upward triangles (n, 3, 3) of each body that can carry a part."""
-    for fixture in cell.fixtures:
-        yield fixture.name, _facing(_triangles(fixture, fixture.X_WB), up=True)
+    from handey import _core
+
+    def is_near(kind: _core.BodyRef.Kind, index: int) -> bool:
+        return near is None or any(ref.kind == kind and ref.index == index for ref in near)
+
+    for index, fixture in enumerate(cell.fixtures):
+        if is_near(_core.BodyRef.Kind.Fixture, index):
+            yield fixture.name, _facing(_triangles(fixture, fixture.X_WB), up=True)
     for index, other in enumerate(cell.parts):
-        if index not in left_out:
+        if index not in left_out and is_near(_core.BodyRef.Kind.Part, index):
             yield other.name, _facing(_triangles(other, other.X_WB), up=True)
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 
@@ -28,10 +29,10 @@ from handey.pick_and_place import (
     carry_through,
     find_reach,
 )
-from handey.placement import examine_standing, stands_stably
+from handey.placement import TOUCHING, examine_standing, stands_stably
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
-from handey.report import Attempt, GoalReport, GrossMotion, Report, StageClock
+from handey.report import Attempt, GoalReport, GrossMotion, LocalMotion, Report, StageClock
 from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
@@ -154,8 +155,7 @@ def _plan_goals(
     """Plan the goals in their order; with `order: any`, the next one that can be planned."""
     task, goals = cell_file.task, _poses(cell_file)
     pending = list(range(len(goals)))
-    tables = _core.ArmTableOptions(directory=table_directory())
-    table, _ = _core.make_arm_table(cell_file.cell.robot, tables)
+    table = cache(lambda: _arm_table(cell_file.cell.robot))
     while pending:
         done = None
         for index in pending if task.any_order else pending[:1]:
@@ -173,14 +173,22 @@ def _plan_goals(
             )
             work = Workspace(model, scene, solver, progress.current, home, clock, table)
             carry = _plan_goal(work, options, goal_report, stop_at)
+            for (action, planner), count in work.given.items():
+                counts = report.planners.setdefault(action, {})
+                counts[planner] = counts.get(planner, 0) + count
             if carry is not None:
-                _take_over(progress, goal, index, carry, clock, report.gross_motions)
+                _take_over(progress, goal, index, carry, clock, report)
                 done = index
                 break
         if done is None:
             return False
         pending.remove(done)
     return True
+
+
+def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
+    options = _core.ArmTableOptions(directory=table_directory())
+    return _core.make_arm_table(robot, options)[0]
 
 
 def _plan_goal(
@@ -196,10 +204,8 @@ def _plan_goal(
     with work.clock("rank grasps"):
         ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
     _report_ranking(report, ranking, options.ranking)
-    part = scene.cell.parts[scene.part]
-    report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     reaches: list[tuple[str, Reach]] = []
-    direct = _with_budget(work, options, 0)
+    direct = _with_budget(options, 0)
     for pair, aim in _grasps(work, ranking, options, report):
         _respect(stop_at)
         name = _describe(pair, aim)
@@ -215,7 +221,7 @@ def _plan_goal(
             if carry.stage == "done":
                 return _planned(report, name, carry)
     for round_ in range(1, len(options.sampling_rounds)):
-        direct = _with_budget(work, options, round_)
+        direct = _with_budget(options, round_)
         for name, reach in reaches:
             _respect(stop_at)
             carry = carry_through(work, reach, direct)
@@ -223,6 +229,8 @@ def _plan_goal(
             if carry.stage == "done":
                 return _planned(report, name, carry)
     report.status = "failed"
+    part = scene.cell.parts[scene.part]
+    report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     return None
 
 
@@ -236,7 +244,9 @@ def _unstable(work: Workspace) -> str:
         reason = f"would fall: {verb} on {name}, which is to be moved; an earlier goal may clear it"
         return f"{', '.join(carried)} {reason}"
     # With `order: any` its goal may be on a part that is not there yet.
-    standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal)
+    there = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
+    near = _core.touching_bodies(work.model, there, scene.part, TOUCHING)
+    standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal, near)
     return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
 
 
@@ -325,11 +335,10 @@ def _describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
     )
 
 
-def _with_budget(work: Workspace, options: PlanOptions, round_: int) -> DirectOptions:
+def _with_budget(options: PlanOptions, round_: int) -> DirectOptions:
     """Gross motions of one pass over the grasps: the last may take all the time that they want."""
     iterations = options.sampling_rounds[round_]
     gross = _core.GrossOptions(
-        free_space=_core.FreeSpaceOptions(table=work.table),
         sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
         shortcut=_core.ShortcutOptions(seed=options.seed),
     )
@@ -342,6 +351,8 @@ def _with_budget(work: Workspace, options: PlanOptions, round_: int) -> DirectOp
 
 def _planned(report: GoalReport, name: str, carry: Carry) -> Carry:
     report.status, report.grasp = "planned", name
+    if carry.grasp is not None:
+        report.jaws = {"open": carry.grasp.opening, "closed": carry.grasp.width}
     return carry
 
 
@@ -356,14 +367,17 @@ def _take_over(
     index: int,
     carry: Carry,
     clock: StageClock,
-    gross_motions: list[GrossMotion],
+    report: Report,
 ) -> None:
     """Append the motions of a carry as timed steps; bring the world to where it then is."""
     with clock("timing"):
         for motion in carry.motions:
+            step = len(progress.steps)
             if motion.search is not None:
-                found = GrossMotion(len(progress.steps), index, motion.action, motion.search)
-                gross_motions.append(found)
+                report.gross_motions.append(GrossMotion(step, index, motion.action, motion.search))
+            if motion.planner:
+                found = LocalMotion(step, index, motion.action, motion.planner)
+                report.local_motions.append(found)
             timed = _core.time_path(progress.cell.robot, motion.path)
             progress.steps.append(
                 Step(

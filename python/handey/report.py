@@ -15,7 +15,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["Attempt", "GoalReport", "GrossMotion", "Report", "Search", "StageClock"]
+__all__ = [
+    "Attempt",
+    "GoalReport",
+    "GrossMotion",
+    "LocalMotion",
+    "Report",
+    "Search",
+    "StageClock",
+]
 
 
 class StageClock:
@@ -87,6 +95,23 @@ class GrossMotion:
         return place | vars(self.search) | {"cpu_s": round(self.search.cpu_s, 6)}
 
 
+@dataclass(frozen=True)
+class LocalMotion:
+    """A motion near obstacles of the plan.
+
+    Attributes:
+        step: index in the plan's steps.
+        goal: index in the task of the goal that it serves.
+        action: "approach", "depart", "deposit" or "withdraw".
+        planner: what gave it: "straight", "quasipotential", "plane search", "RRT-Connect".
+    """
+
+    step: int
+    goal: int
+    action: str
+    planner: str
+
+
 @dataclass
 class GoalReport:
     """How the planning of one goal went.
@@ -99,6 +124,8 @@ class GoalReport:
         reasons: why grasps fell before they were tried, most frequent first.
         attempts: the grasps that were tried, in order.
         grasp: the grasp chosen, in words; empty without one.
+        jaws: distance between the pads [m] as the hand comes ("open") and on the part ("closed");
+            empty without a grasp.
         exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
     """
 
@@ -109,6 +136,7 @@ class GoalReport:
     reasons: list[str] = field(default_factory=list)
     attempts: list[Attempt] = field(default_factory=list)
     grasp: str = ""
+    jaws: dict[str, float] = field(default_factory=dict)
     exhausted: bool = False
 
     def add(self, stage: str, count: int) -> None:
@@ -139,6 +167,7 @@ class GoalReport:
             "funnel": self.funnel,
             "reasons": self.reasons,
             "grasp": self.grasp,
+            "jaws": self.jaws,
             "attempts": [vars(attempt) for attempt in self.attempts],
         }
 
@@ -152,6 +181,9 @@ class Report:
             all that was tried failed.
         goals: one report per goal of the task.
         gross_motions: of the plan, in the order of its steps.
+        local_motions: the same of the motions near obstacles.
+        planners: how often each planner gave a motion near obstacles, by action; attempts that fell
+            later count too.
         stages: CPU seconds by stage.
         cpu_s: CPU seconds of planning, without reading files and without the check.
         wall_s: the same by the wall clock.
@@ -164,6 +196,8 @@ class Report:
     verdict: str = "unknown"
     goals: list[GoalReport] = field(default_factory=list)
     gross_motions: list[GrossMotion] = field(default_factory=list)
+    local_motions: list[LocalMotion] = field(default_factory=list)
+    planners: dict[str, dict[str, int]] = field(default_factory=dict)
     stages: dict[str, float] = field(default_factory=dict)
     cpu_s: float = 0.0
     wall_s: float = 0.0
@@ -195,6 +229,8 @@ class Report:
             "seed": self.seed,
             "deadline_passed": self.deadline_passed,
             "gross_motions": [motion.as_dict() for motion in self.gross_motions],
+            "local_motions": [vars(motion) for motion in self.local_motions],
+            "planners": self.planners,
             "goals": [goal.as_dict() for goal in self.goals],
             "reasons": self.reasons,
         }

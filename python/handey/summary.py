@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from handey.check import CheckReport
     from handey.plan import Plan
     from handey.planner import PlanResult
-    from handey.report import GrossMotion
+    from handey.report import GrossMotion, LocalMotion, Report
 
 __all__ = ["no_plan_lines", "plan_lines", "plan_summary"]
 
@@ -42,6 +42,7 @@ def no_plan_lines(cell: CellFile, result: PlanResult, verbose: bool) -> list[str
     """Why there is no plan."""
     lines = [f"{cell.name}: no plan found ({result.report.verdict})"]
     lines += [f"  {reason}" for reason in result.report.reasons]
+    lines += _planner_lines(result.report)
     return lines + (_attempts(result) if verbose else [])
 
 
@@ -56,12 +57,14 @@ def plan_lines(
         lines.append("  every goal is already met: nothing to do")
     for index, goal in enumerate(cell.goals):
         lines += _goal_lines(plan, index, str(goal), report.goals[index].grasp)
+        lines += _local_lines([m for m in report.local_motions if m.goal == index])
         lines += _gross_lines([m for m in report.gross_motions if m.goal == index])
     seconds = f"{plan.duration_s:.2f} s in {len(plan.steps)} steps"
     lines.append(f"  motion: {seconds}, regrasps: {report.regrasps}")
     stages = ", ".join(f"{stage} {1e3 * s:.1f}" for stage, s in report.stages.items())
     clock = f"{1e3 * report.wall_s:.0f} ms on the clock"
     lines.append(f"  planning: {1e3 * report.cpu_s:.0f} ms CPU ({stages}), {clock}")
+    lines += _planner_lines(report)
     if math.isfinite(checked.least_clearance):
         lines.append(f"  least clearance: {checked.least_clearance * 1e3:.2f} mm")
     return lines + (_attempts(result) if verbose else [])
@@ -79,6 +82,21 @@ def _goal_lines(plan: Plan, index: int, goal: str, grasp: str) -> list[str]:
         f"    grasp: {grasp}; {closed}" if grasp else f"    grasp: {closed}",
         f"    steps: {times}",
     ]
+
+
+def _planner_lines(report: Report) -> list[str]:
+    """How often each planner gave a motion near obstacles, attempts that fell later included."""
+    given = [
+        f"{action} {', '.join(f'{planner} {count}' for planner, count in counts.items())}"
+        for action, counts in report.planners.items()
+    ]
+    return [f"  planners: {'; '.join(given)}"] if given else []
+
+
+def _local_lines(motions: list[LocalMotion]) -> list[str]:
+    """Which planner gave each motion near obstacles."""
+    found = ", ".join(f"{motion.action} {motion.planner}" for motion in motions)
+    return [f"    motions near obstacles: {found}"] if found else []
 
 
 def _gross_lines(motions: list[GrossMotion]) -> list[str]:

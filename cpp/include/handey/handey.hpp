@@ -25,6 +25,7 @@
 #include "handey/collision/box_certificate.hpp"
 #include "handey/collision/certificate.hpp"
 #include "handey/collision/checker.hpp"
+#include "handey/collision/contact_motion.hpp"
 #include "handey/collision/scene.hpp"
 #include "handey/collision/solids.hpp"
 // grasp

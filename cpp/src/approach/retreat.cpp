@@ -1,7 +1,6 @@
 // The hand's straight line out of contact, pose by pose through inverse kinematics. The first,
-// short edge may touch what was touched before, so it is looked at for what the certificate cannot
-// see there: whether any point of hand or part moves back, the hand turns, or an overlap grows.
-// From its end on nothing may touch.
+// short edge may touch what was touched before, so the contacts are followed along it: none may get
+// deeper, which is proved where a plane lies between. From its end on nothing may touch.
 #include "handey/approach/retreat.hpp"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "certified_path.hpp"
+#include "handey/collision/contact_motion.hpp"
 #include "handey/errors.hpp"
 #include "reason.hpp"
 
@@ -21,10 +21,6 @@ namespace {
 constexpr double kMostBack = 2e-5;  // [m]
 constexpr double kMostTurn = 1e-4;  // [rad]
 constexpr int kSamples = 8;         // along the first edge
-// Choice: an overlap may grow by a fifth of the contact tolerance, samples of the first edge are
-// nearer to each other than that.
-constexpr double kMostDeeper = 1e-4;  // [m]
-constexpr int kOverlapSamples = 20;   // along the first edge
 
 void require_range(bool good, const std::string& message) {
   if (!good) throw InvalidInput("E_RANGE", "plan_retreat", message);
@@ -109,31 +105,18 @@ std::string deepening(const Cell& cell, const Configuration& a, const Configurat
   return "";
 }
 
-/// Empty if no overlap grows along the edge: a thin lip can be behind the part at the edge's end.
-std::string tunnelling(CollisionChecker& clear, const Configuration& a, const Configuration& b) {
-  double deepest = 0.0;
-  for (int sample = 0; sample < kOverlapSamples; ++sample) {
-    const double share = static_cast<double>(sample) / kOverlapSamples;
-    const Configuration between{a.q + share * (b.q - a.q),
-                                a.opening + share * (b.opening - a.opening)};
-    for (const Hit& hit : robot_overlaps(clear, between, deepest + kMostDeeper)) {
-      if (sample > 0) return hit.a + " would pass through " + hit.b;
-      deepest = std::max(deepest, -hit.distance);
-    }
-  }
-  return "";
-}
-
 /// The first edge, out of contact; empty if good.
 std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
                           const Configuration& a, const Configuration& b,
                           const Eigen::Vector3d& direction, const RetreatOptions& options) {
   const EdgeResult edge = certify_edge(in_contact, a, b, options.certificate);
   if (!edge.is_free()) return describe(edge.hit);
-  const std::string deeper = deepening(in_contact.cell(), a, b, direction);
-  if (!deeper.empty()) return deeper;
-  const std::string through = tunnelling(clear, a, b);
-  if (!through.empty()) return through;
+  const ContactMotion contacts = follow_contacts(clear, in_contact, a, b);
+  if (contacts.deeper) return contacts.deeper->a + " would pass through " + contacts.deeper->b;
+  if (contacts.measured > 0) {
+    const std::string back = deepening(in_contact.cell(), a, b, direction);
+    if (!back.empty()) return back;
+  }
   const std::optional<Hit> hit = clear.find_hit(b, options.certificate.clearance);
   return hit ? hit->a + " does not come clear of " + hit->b : "";
 }
