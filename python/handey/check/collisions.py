@@ -26,7 +26,7 @@ OVERLAP = 1e-5  # of bodies that may not touch [m]: format
 CONTACT = 5e-4  # of bodies that may [m]: format
 AT_PLACE = 2e-3  # no point further: still at the place it stood [m]: format
 TOUCHING = 6e-4  # bodies nearer than this touch where a part stands [m]: format, standing
-COARSE, FINE = 4e-3, 5e-4  # motion between samples; with a part near its place [m]
+COARSE, FINE = 12e-3, 5e-4  # motion between samples; with a part near its place [m]
 MOST_SAMPLES = 400_000
 
 
@@ -101,7 +101,7 @@ class Collisions:
     # ------------------------------------------------------------------------------------- samples
 
     def _samples(self) -> Samples | None:
-        """The plan's rows, cut so that nothing moves further than 4 mm (0.5 mm near a place)."""
+        """The plan's rows, cut so that nothing moves further than 12 mm (0.5 mm near a place)."""
         q = np.vstack([step.q for step in self.plan.steps])
         opening = np.concatenate([step.opening for step in self.plan.steps])
         time = np.concatenate([step.time for step in self.plan.steps])

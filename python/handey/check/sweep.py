@@ -9,6 +9,8 @@ tolerance + 0.005 mm is always found.
 
 from __future__ import annotations
 
+import heapq
+import itertools
 import math
 from dataclasses import dataclass, field
 
@@ -53,12 +55,15 @@ class Actor:
         radii = np.concatenate([piece.radii for piece in self.pieces])
         self.centre = (centres.min(axis=0) + centres.max(axis=0)) / 2
         self.radius = float((np.linalg.norm(centres - self.centre, axis=1) + radii).max())
+        self._is_body = np.array_equal(self.pose, np.eye(4))
 
     def poses(self, frames: Frames) -> tuple[Array, Array]:
         """Rotations (n, 3, 3) and positions (n, 3); n is 1 for what stands."""
         if self.body is None:
             return self.pose[None, :3, :3], self.pose[None, :3, 3]
         R, p = frames.R[self.body], frames.p[self.body]
+        if self._is_body:
+            return R, p
         return R @ self.pose[:3, :3], R @ self.pose[:3, 3] + p
 
 
@@ -114,21 +119,33 @@ class Sweep:
         self.robot, self.base, self.engine = robot, base, engine
         self.samples = 0
         self._paths = {i: joint_path(robot, i) for i in range(len(robot.bodies))}
+        self._arm = {joint.name: i for i, joint in enumerate(robot.joints)}
+        self._motions: dict[tuple[int, int, str], tuple[Array, Samples, Actor]] = {}
 
     def run(self, samples: Samples, jobs: list[Job], clearance: Clearance) -> list[Hit]:
         """All jobs; the nearest pairs first, so that the least clearance is known early."""
         self.samples += len(samples.q)
-        waiting: list[tuple[float, int, Job, int, int, Array, Array]] = []
+        self._motions.clear()
+        waiting: list[tuple[float, int, Job, tuple[int, int] | None, Array, Array]] = []
+
+        def wait(job: Job, pair: tuple[int, int] | None, bound: Array, motion: Array) -> None:
+            least = np.minimum(bound[:-1], bound[1:])[job.live].min()
+            heapq.heappush(waiting, (float(least), next(serial), job, pair, bound, motion))
+
+        serial = itertools.count()
         for job in jobs:
-            if not job.live.any():
-                continue
-            motion = self._motion(samples, job)
-            for i, j, bound in _bounds(samples.frames, job):
-                least = np.minimum(bound[:-1], bound[1:])[job.live].min()
-                waiting.append((float(least), len(waiting), job, i, j, bound, motion))
+            if job.live.any():
+                wait(job, None, _rough(samples.frames, job), self._motion(samples, job))
         hits: list[Hit] = []
-        for *_, job, i, j, bound, motion in sorted(waiting, key=lambda entry: entry[:2]):
-            hits += self._prove(samples, job, (i, j), bound, motion, clearance)
+        while waiting:
+            _, _, job, pair, bound, motion = heapq.heappop(waiting)
+            if pair is not None:
+                hits += self._prove(samples, job, pair, bound, motion, clearance)
+                continue
+            unproven = _unproven(job, bound, motion, clearance)
+            if len(unproven):
+                for i, j, finer in _bounds(samples.frames, job, bound, unproven):
+                    wait(job, (i, j), finer, motion)
         return hits
 
     def _motion(self, samples: Samples, job: Job) -> Array:
@@ -137,43 +154,41 @@ class Sweep:
             [] if actor.body is None else self._paths[actor.body] for actor in (job.a, job.b)
         ]
         total = np.zeros(len(samples.q) - 1)
-        turn = np.abs(np.diff(samples.q, axis=0))
-        slide = np.abs(np.diff(samples.opening)) / 2
-        arm = {joint.name: i for i, joint in enumerate(self.robot.joints)}
         for actor, path, other in ((job.a, paths[0], paths[1]), (job.b, paths[1], paths[0])):
             common = {joint.name for joint in other}
             own = [joint for joint in path if joint.name not in common]
-            if not own:
-                continue
-            R, p = actor.poses(samples.frames)
-            centre = (R @ actor.centre + p)[:-1]
-            reach = {}
-            for joint in own:
-                if not joint.prismatic:
-                    i = arm[joint.name]
-                    arm_vector = centre - samples.frames.axis_point[i, :-1]
-                    off = np.cross(samples.frames.axis[i, :-1], arm_vector)
-                    reach[i] = np.linalg.norm(off, axis=1) + actor.radius
-            # Joints further out change the distance to an axis within the interval: add their
-            # motion.
-            outer = np.zeros(len(turn))
-            for joint in reversed(own):
-                if joint.prismatic:
-                    moved = slide
-                else:
-                    i = arm[joint.name]
-                    moved = turn[:, i] * (reach[i] + outer)
-                outer = outer + moved
-            total += outer
+            if own:
+                total += self._motion_by(samples, actor, own)
         return total
+
+    def _motion_by(self, samples: Samples, actor: Actor, own: list[Joint]) -> Array:
+        """Bound on the motion of an actor by some joints of its path, the outermost last."""
+        key = (id(samples), id(actor), own[0].name)
+        if key in self._motions:
+            return self._motions[key][0]
+        turn = np.abs(np.diff(samples.q, axis=0))
+        slide = np.abs(np.diff(samples.opening)) / 2
+        R, p = actor.poses(samples.frames)
+        centre = (R @ actor.centre + p)[:-1]
+        # Joints further out change the distance to an axis within the interval: add their motion.
+        outer = np.zeros(len(turn))
+        for joint in reversed(own):
+            if joint.prismatic:
+                outer = outer + slide
+                continue
+            i = self._arm[joint.name]
+            off = _cross(samples.frames.axis[i, :-1], centre - samples.frames.axis_point[i, :-1])
+            reach = np.sqrt(np.einsum("ni,ni->n", off, off)) + actor.radius
+            outer = outer + turn[:, i] * (reach + outer)
+        self._motions[key] = (outer, samples, actor)  # kept alive: an id is not given twice
+        return outer
 
     def _prove(
         self, samples: Samples, job: Job, pair: tuple[int, int], bound: Array, motion: Array,
         clearance: Clearance,
     ) -> list[Hit]:  # fmt: skip
         lowest = -job.tolerance
-        aim = np.where(job.clears, np.maximum(lowest, clearance.wanted()), lowest)
-        unproven = np.flatnonzero(job.live & (bound[:-1] + bound[1:] < motion + 2 * aim))
+        unproven = _unproven(job, bound, motion, clearance)
         if len(unproven) == 0:
             return []
         run = _Run(self.engine, samples, job, pair, clearance)
@@ -283,11 +298,37 @@ class _Run:
         )  # fmt: skip
 
 
-def _bounds(frames: Frames, job: Job) -> list[tuple[int, int, Array]]:
-    """For every pair of pieces a lower bound of the distance: spheres against a box (n,)."""
+def _unproven(job: Job, bound: Array, motion: Array, clearance: Clearance) -> np.ndarray:
+    """The intervals in which the bounds leave it open whether the pair keeps what is asked."""
+    aim = np.where(job.clears, np.maximum(-job.tolerance, clearance.wanted()), -job.tolerance)
+    return np.flatnonzero(job.live & (bound[:-1] + bound[1:] < motion + 2 * aim))
+
+
+def _rough(frames: Frames, job: Job) -> Array:
+    """A lower bound of the distance: the ball round one actor against the other's boxes (n,)."""
     R_a, p_a = job.a.poses(frames)
     R_b, p_b = job.b.poses(frames)
     n = frames.R.shape[1]
+    centre = np.broadcast_to(_local(R_b, R_a @ job.a.centre + p_a - p_b), (n, 3))
+    least = np.full(n, math.inf)
+    for piece in job.b.pieces:
+        local = (centre - piece.pose[:3, 3]) @ piece.pose[:3, :3] - piece.box_centre
+        outside = np.maximum(np.abs(local) - piece.box_half, 0.0)
+        least = np.minimum(least, np.sqrt(np.einsum("ni,ni->n", outside, outside)))
+    return np.asarray(least - job.a.radius)
+
+
+def _bounds(
+    frames: Frames, job: Job, rough: Array, intervals: np.ndarray
+) -> list[tuple[int, int, Array]]:
+    """For every pair of pieces a lower bound of the distance: spheres against a box (n,).
+
+    Looked at closely where one of the intervals begins or ends; elsewhere it is the rough one.
+    """
+    at = np.unique(np.concatenate([intervals, intervals + 1]))
+    R_a, p_a = (rows[at] if len(rows) > 1 else rows for rows in job.a.poses(frames))
+    R_b, p_b = (rows[at] if len(rows) > 1 else rows for rows in job.b.poses(frames))
+    n = len(at)
     R = np.broadcast_to(np.swapaxes(R_b, 1, 2) @ R_a, (n, 3, 3))
     p = np.broadcast_to(_local(R_b, p_a - p_b), (n, 3))
     centres = np.vstack([piece.centres for piece in job.a.pieces])
@@ -300,8 +341,17 @@ def _bounds(frames: Frames, job: Job) -> list[tuple[int, int, Array]]:
         outside = np.maximum(np.abs(local) - piece.box_half, 0.0)
         gap = np.sqrt(np.einsum("nki,nki->nk", outside, outside)) - radii
         least = np.minimum.reduceat(gap, starts, axis=1)
-        result += [(i, j, least[:, i]) for i in range(len(starts))]
+        for i in range(len(starts)):
+            bound = rough.copy()
+            bound[at] = np.maximum(bound[at], least[:, i])
+            result.append((i, j, bound))
     return result
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Cross products of rows (n, 3); numpy's own is slower."""
+    (a0, a1, a2), (b0, b1, b2) = a.T, b.T
+    return np.stack([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0], axis=1)
 
 
 def _local(R: Array, vectors: Array) -> Array:
