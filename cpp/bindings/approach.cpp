@@ -223,22 +223,43 @@ Raises:
 )");
 }
 
+void bind_plane_search(py::module_& m) {
+  const PlaneSearchOptions defaults;
+  py::class_<PlaneSearchOptions>(m, "PlaneSearchOptions",
+                                 "Options of the complete search in the grasp plane.")
+      .def(py::init([](int directions, double close_cost, int most_tests) {
+             return PlaneSearchOptions{directions, close_cost, most_tests};
+           }),
+           py::kw_only(), "directions"_a = defaults.directions,
+           "close_cost"_a = defaults.close_cost, "most_tests"_a = defaults.most_tests)
+      .def_readwrite("directions", &PlaneSearchOptions::directions,
+                     "Of the hand, evenly spaced; 4 to 3600.")
+      .def_readwrite("close_cost", &PlaneSearchOptions::close_cost,
+                     "A step to a point where the hand shares a cell with an obstacle costs so "
+                     "much more; 1 to 20.")
+      .def_readwrite("most_tests", &PlaneSearchOptions::most_tests,
+                     "Poses of the arm tried in one search.");
+}
+
 void bind_plan_approach(py::module_& m) {
   const ApproachOptions defaults;
   py::class_<ApproachOptions>(m, "ApproachOptions", "Options of plan_approach.")
       .def(py::init([](double cell, double run_in, double least_run_in, int most_slides,
                        const QuasipotentialOptions& slide, const LegalityOptions& legality,
                        const CertificateOptions& certificate, double contact_share,
-                       bool destination_obstacles_join) {
+                       bool destination_obstacles_join, const PlaneSearchOptions& search,
+                       int search_levels) {
              return ApproachOptions{cell,        run_in,        least_run_in,
                                     most_slides, slide,         legality,
-                                    certificate, contact_share, destination_obstacles_join};
+                                    certificate, contact_share, destination_obstacles_join,
+                                    search,      search_levels};
            }),
            py::kw_only(), "cell"_a = defaults.cell, "run_in"_a = defaults.run_in,
            "least_run_in"_a = defaults.least_run_in, "most_slides"_a = defaults.most_slides,
            "slide"_a = defaults.slide, "legality"_a = defaults.legality,
            "certificate"_a = defaults.certificate, "contact_share"_a = defaults.contact_share,
-           "destination_obstacles_join"_a = defaults.destination_obstacles_join)
+           "destination_obstacles_join"_a = defaults.destination_obstacles_join,
+           "search"_a = defaults.search, "search_levels"_a = defaults.search_levels)
       .def_readwrite("cell", &ApproachOptions::cell, "Of the motion grid [m].")
       .def_readwrite("run_in", &ApproachOptions::run_in,
                      "Distance of the start from the grasp [m].")
@@ -251,7 +272,10 @@ void bind_plan_approach(py::module_& m) {
                      "Accepted overlap of the pad with the unobstructed faces.")
       .def_readwrite(
           "destination_obstacles_join", &ApproachOptions::destination_obstacles_join,
-          "As the article: obstacles moved by T^-1 stand in the way of the approach too.");
+          "As the article: obstacles moved by T^-1 hinder the approach; only slides are tried.")
+      .def_readwrite("search", &ApproachOptions::search)
+      .def_readwrite("search_levels", &ApproachOptions::search_levels,
+                     "Lattices searched where the slides stall, each half as wide; 0: no search.");
   py::enum_<ApproachStatus>(m, "ApproachStatus", "How an approach ended.")
       .value("Found", ApproachStatus::Found)
       .value("StartBlocked", ApproachStatus::StartBlocked)
@@ -367,6 +391,7 @@ void bind_approach(py::module_& m) {
   bind_grid(m);
   bind_bump_lines(m);
   bind_slide(m);
+  bind_plane_search(m);
   bind_plan_approach(m);
   bind_retreat(m);
 }

@@ -73,6 +73,7 @@ __all__: list[str] = [
     "PlanarArm",
     "PlanarFace",
     "PlanarPose",
+    "PlaneSearchOptions",
     "QuasipotentialOptions",
     "RankedPair",
     "Ranking",
@@ -2171,6 +2172,39 @@ class SlideResult:
     @property
     def status(self) -> SlideStatus: ...
 
+class PlaneSearchOptions:
+    """
+    Options of the complete search in the grasp plane.
+    """
+    def __init__(
+        self,
+        *,
+        directions: typing.SupportsInt | typing.SupportsIndex = 72,
+        close_cost: typing.SupportsFloat | typing.SupportsIndex = 4.0,
+        most_tests: typing.SupportsInt | typing.SupportsIndex = 4000,
+    ) -> None: ...
+    @property
+    def close_cost(self) -> float:
+        """
+        A step to a point where the hand shares a cell with an obstacle costs so much more; 1 to 20.
+        """
+    @close_cost.setter
+    def close_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def directions(self) -> int:
+        """
+        Of the hand, evenly spaced; 4 to 3600.
+        """
+    @directions.setter
+    def directions(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def most_tests(self) -> int:
+        """
+        Poses of the arm tried in one search.
+        """
+    @most_tests.setter
+    def most_tests(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
 class ApproachOptions:
     """
     Options of plan_approach.
@@ -2178,6 +2212,7 @@ class ApproachOptions:
 
     certificate: CertificateOptions
     legality: LegalityOptions
+    search: PlaneSearchOptions
     slide: QuasipotentialOptions
     def __init__(
         self,
@@ -2191,6 +2226,8 @@ class ApproachOptions:
         certificate: CertificateOptions = ...,
         contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
         destination_obstacles_join: bool = False,
+        search: PlaneSearchOptions = ...,
+        search_levels: typing.SupportsInt | typing.SupportsIndex = 2,
     ) -> None: ...
     @property
     def cell(self) -> float:
@@ -2209,7 +2246,7 @@ class ApproachOptions:
     @property
     def destination_obstacles_join(self) -> bool:
         """
-        As the article: obstacles moved by T^-1 stand in the way of the approach too.
+        As the article: obstacles moved by T^-1 hinder the approach; only slides are tried.
         """
     @destination_obstacles_join.setter
     def destination_obstacles_join(self, arg0: bool) -> None: ...
@@ -2231,6 +2268,13 @@ class ApproachOptions:
         """
     @run_in.setter
     def run_in(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def search_levels(self) -> int:
+        """
+        Lattices searched where the slides stall, each half as wide; 0: no search.
+        """
+    @search_levels.setter
+    def search_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
 
 class ApproachPlanner:
     """

@@ -39,6 +39,7 @@
 #include "handey/approach/bump_lines.hpp"
 #include "handey/approach/grid.hpp"
 #include "handey/approach/quasipotential.hpp"
+#include "handey/approach/plane_search.hpp"
 #include "handey/approach/retreat.hpp"
 // cspace
 #include "handey/cspace/arm_table.hpp"

@@ -90,7 +90,7 @@ bool MotionGrid::visit_cells(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return false;
 }
 
-void MotionGrid::fill(int layer, const Region& region) {
+void MotionGrid::require_fits(int layer, const Region& region) const {
   if (layer < 0 || layer >= layers_) {
     throw InvalidInput("E_RANGE", "motion grid",
                        "layer " + std::to_string(layer) + "; the grid has layers 0 to " +
@@ -103,6 +103,10 @@ void MotionGrid::fill(int layer, const Region& region) {
       }
     }
   }
+}
+
+void MotionGrid::fill(int layer, const Region& region) {
+  require_fits(layer, region);
   for (const Polygon& loop : region.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       visit_cells(loop[i], loop[(i + 1) % loop.size()], [&](int column, int row) {
@@ -111,10 +115,37 @@ void MotionGrid::fill(int layer, const Region& region) {
       });
     }
   }
-  fill_interior(layer, region);
+  visit_interior(region, [&](int first, int last, int row) {
+    std::fill_n(filled_.begin() + static_cast<std::ptrdiff_t>(index(layer, first, row)),
+                last - first + 1, std::uint8_t{1});
+  });
 }
 
-void MotionGrid::fill_interior(int layer, const Region& region) {
+void MotionGrid::fill_inside(int layer, const Region& region) {
+  require_fits(layer, region);
+  // Cells that the border touches, per row, so as not to forget what is filled already.
+  std::vector<std::vector<int>> border(static_cast<std::size_t>(side_));
+  for (const Polygon& loop : region.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      visit_cells(loop[i], loop[(i + 1) % loop.size()], [&](int column, int row) {
+        border[static_cast<std::size_t>(row)].push_back(column);
+        return false;
+      });
+    }
+  }
+  for (std::vector<int>& columns : border) std::sort(columns.begin(), columns.end());
+  visit_interior(region, [&](int first, int last, int row) {
+    const std::vector<int>& columns = border[static_cast<std::size_t>(row)];
+    auto next = std::lower_bound(columns.begin(), columns.end(), first);
+    for (int column = first; column <= last; ++column) {
+      while (next != columns.end() && *next < column) ++next;
+      if (next == columns.end() || *next != column) filled_[index(layer, column, row)] = 1;
+    }
+  });
+}
+
+template <typename Visit>
+void MotionGrid::visit_interior(const Region& region, const Visit& visit) const {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Polygon& loop : region.loops) {
     for (const Eigen::Vector2d& point : loop) {
@@ -148,10 +179,9 @@ void MotionGrid::fill_interior(int layer, const Region& region) {
       const double first = std::ceil(crossings[k].first - 0.5);
       const double last = std::floor(crossings[k + 1].first - 0.5);
       if (last < 0.0 || first > side_ - 1) continue;
+      const int start = static_cast<int>(std::max(first, 0.0));
       const int end = static_cast<int>(std::min(last, static_cast<double>(side_ - 1)));
-      for (int column = static_cast<int>(std::max(first, 0.0)); column <= end; ++column) {
-        filled_[index(layer, column, row)] = 1;
-      }
+      if (start <= end) visit(start, end, row);
     }
   }
 }

@@ -34,13 +34,14 @@ std::optional<Eigen::VectorXd> HandReach::follow(const PlanarPose& pose, const E
 std::optional<Eigen::VectorXd> HandReach::follow_free(const PlanarPose& pose,
                                                       const Eigen::VectorXd& q) {
   std::optional<Eigen::VectorXd> next = follow(pose, q);
-  if (!next) return std::nullopt;
-  const std::optional<Hit> hit = checker_.find_hit(with_opening(*next), clearance_);
-  if (hit) {
-    reason_ = describe(*hit);
-    return std::nullopt;
-  }
+  if (!next || !is_free(*next)) return std::nullopt;
   return next;
+}
+
+bool HandReach::is_free(const Eigen::VectorXd& q) {
+  const std::optional<Hit> hit = checker_.find_hit(with_opening(q), clearance_);
+  if (hit) reason_ = describe(*hit);
+  return !hit;
 }
 
 std::optional<Eigen::VectorXd> HandReach::lead(const PlanarPose& from, const PlanarPose& to,

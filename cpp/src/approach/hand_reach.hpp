@@ -22,6 +22,8 @@ class HandReach {
   std::optional<Eigen::VectorXd> follow(const PlanarPose& pose, const Eigen::VectorXd& q);
   /// The same, but none either where the robot is not free.
   std::optional<Eigen::VectorXd> follow_free(const PlanarPose& pose, const Eigen::VectorXd& q);
+  /// Is the whole robot free there?
+  bool is_free(const Eigen::VectorXd& q);
   /// The configuration at `to`, the hand led there from `from` in a straight line, not asking what
   /// is in the way.
   std::optional<Eigen::VectorXd> lead(const PlanarPose& from, const PlanarPose& to,

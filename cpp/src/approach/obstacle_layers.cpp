@@ -105,4 +105,12 @@ MotionGrid ObstacleLayers::draw(double cell) const {
   return grid;
 }
 
+MotionGrid ObstacleLayers::draw_inside(double cell) const {
+  MotionGrid grid(centre_, half_size_, cell, static_cast<int>(layers_.size()));
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    for (const Region& region : layers_[layer]) grid.fill_inside(static_cast<int>(layer), region);
+  }
+  return grid;
+}
+
 }  // namespace handey

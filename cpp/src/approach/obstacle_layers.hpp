@@ -22,6 +22,8 @@ class ObstacleLayers {
                  bool destination_too);
 
   MotionGrid draw(double cell) const;
+  /// The cells wholly inside obstacles alone.
+  MotionGrid draw_inside(double cell) const;
 
  private:
   void add(const Body& body, const Pose& X_GB, const GripperOutline& outline);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "handey/approach/plane_search.hpp"
 #include "handey/approach/quasipotential.hpp"
 #include "handey/collision/certificate.hpp"
 #include "handey/grasp/legality.hpp"
@@ -25,8 +26,11 @@ struct ApproachOptions {
   LegalityOptions legality;
   CertificateOptions certificate;
   double contact_share = 0.3;  ///< accepted overlap of the pad with the unobstructed faces
-  bool destination_obstacles_join =
-      false;  ///< article: obstacles moved by T^-1 stand in the way of the approach too
+  bool destination_obstacles_join = false;  ///< article: obstacles moved by T^-1 stand in the way
+                                            ///< of the approach too; then only slides are tried
+  PlaneSearchOptions search;
+  int search_levels = 2;  ///< lattices searched where the slides stall, of `cell` and half of it in
+                          ///< turn; 0: no search
 };
 
 enum class ApproachStatus {

@@ -25,12 +25,17 @@ class MotionGrid {
   int side() const { return side_; }
   int layers() const { return layers_; }
   const Eigen::Vector2d& centre() const { return centre_; }
+  /// Lowest x and y of cell (0, 0) [m].
+  const Eigen::Vector2d& corner() const { return corner_; }
   double half_size() const { return half_size_; }
   bool is_inside(const Eigen::Vector2d& point) const;
   /// Fills every cell of `layer` that the region touches.
   /// @throws InvalidInput (E_RANGE) for a layer that the grid does not have, (E_NUMBER) for a point
   /// that is not finite
   void fill(int layer, const Region& region);
+  /// Fills every cell of `layer` that lies wholly inside the region: what is full for certain.
+  /// @throws InvalidInput as fill does
+  void fill_inside(int layer, const Region& region);
   /// @param column along x of G, @param row along y; both 0..side-1, unchecked
   bool is_filled(int layer, int column, int row) const {
     return filled_[index(layer, column, row)] != 0;
@@ -48,7 +53,10 @@ class MotionGrid {
   /// Calls visit(column, row) for each cell that the segment touches, until visit returns true.
   template <typename Visit>
   bool visit_cells(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Visit& visit) const;
-  void fill_interior(int layer, const Region& region);
+  void require_fits(int layer, const Region& region) const;
+  /// Calls visit(first column, last column, row) for each run of cells whose centres are inside.
+  template <typename Visit>
+  void visit_interior(const Region& region, const Visit& visit) const;
 
   Eigen::Vector2d centre_, corner_;  // corner_: of cell (0, 0), lowest x and y
   double half_size_, cell_;
