@@ -1,4 +1,4 @@
-// Halves rectangles of columns, the worst first, and joins neighbours that one solid covers as
+// Cuts rectangles of columns in two, the worst first, and joins neighbours that one solid covers as
 // well.
 #include "column_cover.hpp"
 
@@ -6,14 +6,16 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <utility>
 
-#include "nearest_column.hpp"
+#include "column_grid.hpp"
 
 namespace handey::world {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kExact = 1e-9;  // less stands out by rounding only [m]
@@ -21,23 +23,17 @@ constexpr double kExact = 1e-9;  // less stands out by rounding only [m]
 constexpr double kBehind = 4.0;
 constexpr int kMostExactSolids = 3000;  // Choice: of those that must be exact; beyond, none has to
 constexpr int kJoinRounds = 4;
-constexpr double kThinnest = 1e-6;  // part of w that must lie between the planes at each corner
+constexpr int kMany = 8000;            // columns: more have parts that are farther aside
+constexpr float kDiagonal = 1.41422f;  // of a square, a little more
+constexpr double kThinnest = 1e-6;     // part of w that must lie between the planes at each corner
+constexpr double kLevel = 1e-12;       // a slope that changes w by less, as a part of it, is none
+constexpr double kRounding = 1e-13;    // of w
 
-struct Rectangle {
-  int v0 = 0, v1 = 0, u0 = 0, u1 = 0;  // rows [v0, v1), columns [u0, u1)
-  int size() const { return (v1 - v0) * (u1 - u0); }
-};
-
-/// w = at + a (u - u0) + b (v - v0)
-struct Plane {
-  double at = 0.0, a = 0.0, b = 0.0;
-  double operator()(double u, double v) const { return at + a * u + b * v; }
-  double step() const { return std::abs(a) + std::abs(b); }
-};
-
+/// A rectangle of columns and the solid that covers them.
 struct Block {
   Rectangle rectangle;
-  Plane upper, lower;  // about the rectangle's first cell
+  std::vector<Vector2d> outline;  // from the rectangle's first cell, as the planes
+  Plane upper, lower;
   double excess = 0.0;
   double ratio = 0.0;  // excess over what is tolerated there
   bool near_place = false;
@@ -53,7 +49,6 @@ struct Worse {
   }
 };
 
-/// What of the columns' ends lies beyond a plane.
 struct Spread {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
@@ -63,51 +58,78 @@ struct Spread {
   }
 };
 
+/// How the columns' ends lie above two planes, and how far empty ones are from full ones.
+struct Fit {
+  Spread upper, lower;                  // of all columns
+  double highest = 0.0, deepest = 0.0;  // of full ones: highest upper end, deepest lower end
+  float aside = 0.0f;                   // [cells]
+};
+
 struct PlaceBox {
   Pose X_OD;  // map in the box's frame
   Vector3d half;
 };
 
-bool apart_along(const std::array<Vector3d, 8>& corners, const Vector3d& half) {
-  for (int k = 0; k < 3; ++k) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const Vector3d& corner : corners) {
-      least = std::min(least, corner[k]);
-      most = std::max(most, corner[k]);
+/// Columns [first, last] of a row whose squares the outline meets.
+std::pair<int, int> row_of(const std::vector<Vector2d>& outline, int v, int columns) {
+  Spread across;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const double low = std::max(std::min(a.y(), b.y()), v - 0.5),
+                 high = std::min(std::max(a.y(), b.y()), v + 0.5);
+    if (low > high) continue;
+    if (std::abs(b.y() - a.y()) < 1e-12) {
+      across.add(a.x());
+      across.add(b.x());
+      continue;
     }
-    if (least > half[k] || most < -half[k]) return true;
+    for (const double y : {low, high}) {
+      across.add(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
+    }
   }
-  return false;
+  const int first = static_cast<int>(std::floor(across.least + 0.5 + 1e-9)),
+            last = static_cast<int>(std::ceil(across.most - 0.5 - 1e-9));
+  return {std::max(first, 0), std::min(last, columns - 1)};
 }
 
-Eigen::AlignedBox3d extent(const Hexahedron& solid) {
+Eigen::AlignedBox3d extent(const Prism& solid) {
   Eigen::AlignedBox3d box;
-  for (const Vector3d& corner : solid.corners) box.extend(corner);
+  for (const std::vector<Vector3d>* ring : {&solid.lower, &solid.upper}) {
+    for (const Vector3d& corner : *ring) box.extend(corner);
+  }
   return box;
 }
 
-constexpr int kFaces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
 /// Does a plane of the box or of the solid part them? If not they may still be apart.
-bool may_meet(const Hexahedron& solid, const PlaceBox& box) {
-  std::array<Vector3d, 8> local;
-  Vector3d middle = Vector3d::Zero();
-  for (std::size_t k = 0; k < 8; ++k) {
-    local[k] = box.X_OD * solid.corners[k];
-    middle += local[k] / 8.0;
+bool may_meet(const Prism& solid, const PlaceBox& box) {
+  const std::size_t n = solid.lower.size();
+  std::vector<Vector3d> local;
+  for (const std::vector<Vector3d>* ring : {&solid.lower, &solid.upper}) {
+    for (const Vector3d& corner : *ring) local.push_back(box.X_OD * corner);
   }
-  if (apart_along(local, box.half)) return false;
-  for (const int* face : kFaces) {
-    const Vector3d& p = local[static_cast<std::size_t>(face[0])];
-    const Vector3d across = local[static_cast<std::size_t>(face[2])] - p;
-    const Vector3d other =
-        local[static_cast<std::size_t>(face[3])] - local[static_cast<std::size_t>(face[1])];
-    Vector3d normal = across.cross(other);
-    if (normal.dot(middle - p) > 0.0) normal = -normal;
+  Eigen::AlignedBox3d reach;
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& corner : local) {
+    reach.extend(corner);
+    middle += corner / static_cast<double>(2 * n);
+  }
+  if ((reach.min().array() > box.half.array()).any() ||
+      (reach.max().array() < -box.half.array()).any()) {
+    return false;
+  }
+  const auto parts = [&](Vector3d normal, const Vector3d& point) {
+    if (normal.dot(middle - point) > 0.0) normal = -normal;
     double offset = -std::numeric_limits<double>::infinity();
     for (const Vector3d& corner : local) offset = std::max(offset, normal.dot(corner));
-    if (-normal.cwiseAbs().dot(box.half) > offset) return false;
+    return -normal.cwiseAbs().dot(box.half) > offset;
+  };
+  for (const std::size_t ring : {std::size_t{0}, n}) {
+    const Vector3d& p = local[ring];
+    if (parts((local[ring + n / 3] - p).cross(local[ring + 2 * n / 3] - p), p)) return false;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    if (parts((local[n + j] - local[i]).cross(local[n + i] - local[j]), local[i])) return false;
   }
   return true;
 }
@@ -115,62 +137,49 @@ bool may_meet(const Hexahedron& solid, const PlaceBox& box) {
 class Coverer {
  public:
   Coverer(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options)
-      : columns_(columns), options_(options), width_(columns.columns) {
-    fill_empty();
+      : space_(columns.space), options_(options), grid_(columns, empty_cost(columns, options)) {
     set_places(X_WD);
   }
 
-  Cover run();
+  Cover run() const;
 
  private:
-  void fill_empty();
+  static double empty_cost(const Columns& columns, const DepthMapOptions& options);
   void set_places(const Pose& X_WD);
   std::optional<Block> fit(Rectangle rectangle) const;
-  bool trim(Rectangle& rectangle) const;
-  bool set_planes(Block& block, bool slanted) const;
-  Plane regression(const Rectangle& r, const std::vector<double>& w) const;
-  Spread spread(const Rectangle& r, const Plane& plane, const std::vector<double>& w,
-                double& most_full, double& least_full) const;
-  void judge(Block& block, double upper_out, double lower_out, double least_upper,
-             double least_lower) const;
-  Hexahedron solid_of(const Block& block) const;
-  double tolerance(const Hexahedron& solid) const;
-  bool within_reach(const Hexahedron& solid) const;
-  bool is_near_place(const Hexahedron& solid) const;
-  void split(const Block& block, std::vector<Block>& into) const;
+  Fit measure(const Block& block, std::size_t spread) const;
+  bool set_planes(Block& block, const Plane& upper) const;
+  Plane behind(const Block& block, const Plane& upper) const;
+  void judge(Block& block, float cells, double upper_out, double lower_out, double allowed) const;
+  Prism solid_of(const Block& block) const;
+  double tolerance(const Prism& solid) const;
+  bool within_reach(const Prism& solid) const;
+  bool is_near_place(const Prism& solid) const;
+  std::optional<Block> joined(const Block& a, const Block& b) const;
   void join(std::vector<Block>& blocks) const;
+  std::vector<Block> cut() const;
 
-  std::size_t index(int v, int u) const {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(u);
-  }
-
-  const Columns& columns_;
+  ColumnSpace space_;
   const DepthMapOptions& options_;
-  int width_;
-  Rectangle all_;
-  std::vector<char> full_;
-  std::vector<double> upper_, lower_;  // of empty columns: those of a full one near them
-  std::vector<float> distance_;        // to that one [cells]
+  ColumnGrid grid_;
   std::vector<PlaceBox> places_;
   std::vector<std::pair<Vector3d, double>> balls_;  // round the places, map frame
   Vector3d reach_centre_ = Vector3d::Zero();
 };
 
-void Coverer::fill_empty() {
-  full_.resize(columns_.upper.size());
-  for (std::size_t i = 0; i < full_.size(); ++i) full_[i] = !std::isnan(columns_.upper[i]);
-  all_ = {0, columns_.rows, 0, columns_.columns};
-  if (!trim(all_)) return;
-  const NearestColumns nearest = nearest_columns(columns_.rows, columns_.columns, full_);
-  upper_ = columns_.upper;
-  lower_ = columns_.lower;
-  distance_ = nearest.distance;
-  for (std::size_t i = 0; i < full_.size(); ++i) {
-    if (full_[i] != 0 || nearest.source[i] < 0) continue;
-    upper_[i] = columns_.upper[static_cast<std::size_t>(nearest.source[i])];
-    lower_[i] = columns_.lower[static_cast<std::size_t>(nearest.source[i])];
+/// What stands out over an empty column weighs as much as twice the tolerance.
+double Coverer::empty_cost(const Columns& columns, const DepthMapOptions& options) {
+  double scale = 1.0;
+  if (columns.space.perspective) {
+    double sum = 0.0, count = 1e-9;
+    for (const double w : columns.upper) {
+      if (std::isnan(w)) continue;
+      sum += w;
+      count += 1.0;
+    }
+    scale = (sum / count) * (sum / count);
   }
+  return 4.0 * options.excess * options.excess * scale * scale;
 }
 
 void Coverer::set_places(const Pose& X_WD) {
@@ -196,178 +205,150 @@ void Coverer::set_places(const Pose& X_WD) {
   }
 }
 
-bool Coverer::trim(Rectangle& r) const {
-  Rectangle found{r.v1, r.v0, r.u1, r.u0};
-  for (int v = r.v0; v < r.v1; ++v) {
-    const char* row = full_.data() + index(v, 0);
-    int first = r.u0, last = r.u1;
-    while (first < last && row[first] == 0) ++first;
-    if (first == last) continue;
-    while (row[last - 1] == 0) --last;
-    found = {std::min(found.v0, v), v + 1, std::min(found.u0, first), std::max(found.u1, last)};
+Fit Coverer::measure(const Block& block, std::size_t spread) const {
+  const Rectangle& r = block.rectangle;
+  Fit fit;
+  fit.aside = spread > 0 ? kDiagonal * static_cast<float>(spread) : 0.0f;
+  Spread upper, lower;  // of full columns
+  for (int v = 0; v < r.v1 - r.v0; ++v) {
+    const auto [first, last] = row_of(block.outline, v, r.u1 - r.u0);
+    const std::size_t row = grid_.index(r.v0 + v, r.u0);
+    const double upper_base = block.upper(0.0, v), lower_base = block.lower(0.0, v);
+    for (int k = first; k <= last; ++k) {
+      const std::size_t i = row + static_cast<std::size_t>(k);
+      const double above = grid_.upper(i, spread) - upper_base - block.upper.a * k,
+                   below = grid_.lower(i, spread) - lower_base - block.lower.a * k;
+      fit.upper.add(above);
+      fit.lower.add(below);
+      if (grid_.is_full(i)) {
+        upper.add(above);
+        lower.add(below);
+      } else {
+        fit.aside = std::max(fit.aside, grid_.distance(i));
+      }
+    }
   }
-  r = found;
-  return r.v0 < r.v1;
+  fit.highest = upper.most;
+  fit.deepest = lower.least;
+  return fit;
 }
 
-/// The plane of least squares over the full columns.
-Plane Coverer::regression(const Rectangle& r, const std::vector<double>& w) const {
-  const double mid_u = 0.5 * (r.u1 - r.u0 - 1), mid_v = 0.5 * (r.v1 - r.v0 - 1);
-  double n = 0, su = 0, sv = 0, sw = 0, suu = 0, suv = 0, svv = 0, suw = 0, svw = 0;
-  for (int v = r.v0; v < r.v1; ++v) {
-    const std::size_t row = index(v, r.u0);
-    const double y = v - r.v0 - mid_v;
-    double rn = 0, ru = 0, rw = 0, ruu = 0, ruw = 0;
-    for (int k = 0; k < r.u1 - r.u0; ++k) {
-      const std::size_t i = row + static_cast<std::size_t>(k);
-      if (full_[i] == 0) continue;
-      const double x = k - mid_u;
-      rn += 1;
-      ru += x;
-      rw += w[i];
-      ruu += x * x;
-      ruw += x * w[i];
-    }
-    n += rn;
-    su += ru;
-    sv += rn * y;
-    sw += rw;
-    suu += ruu;
-    suv += ru * y;
-    svv += rn * y * y;
-    suw += ruw;
-    svw += rw * y;
-  }
-  const double uu = suu - su * su / n, uv = suv - su * sv / n, vv = svv - sv * sv / n;
-  const double uw = suw - su * sw / n, vw = svw - sv * sw / n;
-  const double determinant = uu * vv - uv * uv;
+/// About the plane of the lower ends where the upper ends lie on a plane.
+Plane Coverer::behind(const Block& block, const Plane& upper) const {
+  if (!space_.perspective || upper.step() == 0.0) return {};
+  // Both ends of the first full columns found tell how far apart they are: the same for all.
+  const Rectangle& r = block.rectangle;
+  std::size_t i = grid_.index(r.v0, r.u0);
+  while (!grid_.is_full(i)) ++i;
+  const double far = 1.0 / grid_.lower(i, 0) - 1.0 / grid_.upper(i, 0);
+  const double width = r.u1 - r.u0 - 1, height = r.v1 - r.v0 - 1;
+  const auto lower = [&](double u, double v) {
+    const double w = upper(u, v);
+    return w > 0.0 ? 1.0 / (1.0 / w + far) : 0.0;
+  };
   Plane plane;
-  if (determinant > 1e-9 * (1.0 + uu * vv)) {
-    plane.a = (uw * vv - vw * uv) / determinant;
-    plane.b = (vw * uu - uw * uv) / determinant;
-  } else if (uu > 0.5 && uu >= vv) {
-    plane.a = uw / uu;
-  } else if (vv > 0.5) {
-    plane.b = vw / vv;
-  }
-  plane.at = (sw - plane.a * su - plane.b * sv) / n - plane.a * mid_u - plane.b * mid_v;
+  const double at[4] = {lower(0, 0), lower(width, 0), lower(0, height), lower(width, height)};
+  if (width > 0) plane.a = 0.5 * (at[1] - at[0] + at[3] - at[2]) / width;
+  if (height > 0) plane.b = 0.5 * (at[2] - at[0] + at[3] - at[1]) / height;
+  plane.at = at[0];
   return plane;
 }
 
-/// How far the columns' ends lie above the plane, empty columns by the full one near them.
-Spread Coverer::spread(const Rectangle& r, const Plane& plane, const std::vector<double>& w,
-                       double& most_full, double& least_full) const {
-  Spread all, full;
-  for (int v = r.v0; v < r.v1; ++v) {
-    const std::size_t row = index(v, r.u0);
-    const double base = plane(0.0, v - r.v0);
-    for (int k = 0; k < r.u1 - r.u0; ++k) {
-      const std::size_t i = row + static_cast<std::size_t>(k);
-      const double above = w[i] - base - plane.a * k;
-      all.add(above);
-      if (full_[i] != 0) full.add(above);
-    }
-  }
-  most_full = full.most;
-  least_full = full.least;
-  return all;
-}
-
 /// Moves the planes outward until they cover all columns, and sees how much stands out.
-bool Coverer::set_planes(Block& block, bool slanted) const {
-  const Rectangle& r = block.rectangle;
-  Plane upper, lower;
-  if (slanted) {
-    upper = regression(r, upper_);
-    lower = columns_.space.perspective ? regression(r, lower_) : Plane{};
-  }
-  double most = 0.0, least = 0.0, unused = 0.0;
-  const Spread above = spread(r, upper, upper_, most, unused);
-  const Spread below = spread(r, lower, lower_, unused, least);
-  const double rounding = 1e-13 * (std::abs(above.most) + std::abs(upper.at));
-  const double upper_shift = most + 0.5 * upper.step() + rounding;
-  const double lower_shift = least - 0.5 * lower.step() - (slanted ? rounding : 0.0);
-  const double upper_out = std::max(0.0, upper_shift + 0.5 * upper.step() - above.least);
-  const double lower_out = std::max(0.0, below.most - lower_shift + 0.5 * lower.step());
-  upper.at += upper_shift;
-  lower.at += lower_shift;
-  const double width = r.u1 - r.u0, height = r.v1 - r.v0;
-  double least_upper = std::numeric_limits<double>::infinity(), least_lower = least_upper;
-  for (const double u : {-0.5, width - 0.5}) {
-    for (const double v : {-0.5, height - 0.5}) {
-      least_upper = std::min(least_upper, upper(u, v));
-      least_lower = std::min(least_lower, lower(u, v));
-      if (slanted && upper(u, v) - lower(u, v) <= kThinnest * upper.at) return false;
-    }
-  }
-  if (columns_.space.perspective && !(least_lower > 0.0)) return false;
+bool Coverer::set_planes(Block& block, const Plane& upper) const {
   block.upper = upper;
-  block.lower = lower;
-  judge(block, upper_out, lower_out, least_upper, least_lower);
+  block.lower = behind(block, upper);
+  const Fit fit = measure(block, 0);
+  const bool slanted = upper.step() > 0.0;
+  const double rounding = slanted ? kRounding * (std::abs(upper.at) + upper.step()) : 0.0;
+  const double upper_shift = fit.highest + 0.5 * block.upper.step() + rounding;
+  const double lower_shift = fit.deepest - 0.5 * block.lower.step() - rounding;
+  block.upper.at += upper_shift;
+  block.lower.at += lower_shift;
+  for (const Vector2d& corner : block.outline) {
+    const double above = block.upper(corner.x(), corner.y()),
+                 below = block.lower(corner.x(), corner.y());
+    if (above - below <= kThinnest * std::abs(above)) return false;
+    if (space_.perspective && !(below > 0.0)) return false;
+  }
+  const Prism solid = solid_of(block);
+  block.near_place = is_near_place(solid);
+  const double allowed = tolerance(solid);
+  // Measured against the planes as they are now.
+  const auto consider = [&](const Fit& seen, double shifted_upper, double shifted_lower) {
+    const double upper_out = shifted_upper + 0.5 * block.upper.step() - seen.upper.least,
+                 lower_out = seen.lower.most - shifted_lower + 0.5 * block.lower.step();
+    judge(block, seen.aside, std::max(0.0, upper_out), std::max(0.0, lower_out), allowed);
+  };
+  block.ratio = std::numeric_limits<double>::infinity();
+  consider(fit, upper_shift, lower_shift);
+  const bool many = block.rectangle.size() > kMany;
+  for (std::size_t spread = 1; spread < kSpreads && block.ratio > 1.0 && !many; ++spread) {
+    consider(measure(block, spread), 0.0, 0.0);
+  }
   return true;
 }
 
-/// Sets excess and ratio of a block whose planes stand out by these amounts of w.
-void Coverer::judge(Block& block, double upper_out, double lower_out, double least_upper,
-                    double least_lower) const {
+/// Lowers excess and ratio of a block whose planes stand out by no more than these amounts of w of
+/// what is at most `cells` columns aside of something solid.
+void Coverer::judge(Block& block, float cells, double upper_out, double lower_out,
+                    double allowed) const {
   const Rectangle& r = block.rectangle;
-  float farthest = 0.0f;
-  for (int v = r.v0; v < r.v1; ++v) {
-    const std::size_t row = index(v, r.u0);
-    for (int k = 0; k < r.u1 - r.u0; ++k) {
-      farthest = std::max(farthest, distance_[row + static_cast<std::size_t>(k)]);
+  double before = upper_out, behind = lower_out, aside = cells * space_.cell;
+  if (space_.perspective) {
+    double ray = 1.0, least_upper = std::numeric_limits<double>::infinity(),
+           least_lower = least_upper;
+    for (const Vector2d& corner : block.outline) {
+      const Vector3d along((r.u0 + corner.x() - space_.cx) / space_.fx,
+                           (r.v0 + corner.y() - space_.cy) / space_.fy, 1.0);
+      ray = std::max(ray, along.norm());
+      least_upper = std::min(least_upper, block.upper(corner.x(), corner.y()));
+      least_lower = std::min(least_lower, block.lower(corner.x(), corner.y()));
     }
-  }
-  const ColumnSpace& space = columns_.space;
-  double before = upper_out, behind = lower_out, beside = farthest * space.cell;
-  if (space.perspective) {
-    double ray = 1.0;
-    for (const double u : {r.u0 - 0.5, r.u1 - 0.5}) {
-      for (const double v : {r.v0 - 0.5, r.v1 - 0.5}) {
-        ray = std::max(ray,
-                       Vector3d((u - space.cx) / space.fx, (v - space.cy) / space.fy, 1.0).norm());
-      }
-    }
-    // From w to depth: least where the plane is farthest.
+    // From w to depth: most where the plane is farthest.
     const double least_end = std::max(least_upper - upper_out, least_lower);
     before = ray * upper_out / (least_end * least_upper);
     behind = ray * lower_out / (least_lower * least_lower);
-    beside = farthest / (std::min(space.fx, space.fy) * least_lower);
+    aside = cells / (std::min(space_.fx, space_.fy) * least_lower);
   }
-  block.excess = std::max(before, behind) + beside;
-  const Hexahedron solid = solid_of(block);
-  const double allowed = tolerance(solid);
-  block.ratio = std::max(before + beside, behind / kBehind) / allowed;
-  block.near_place = is_near_place(solid);
+  const double ratio = std::max(before + aside, behind / kBehind) / allowed;
+  if (ratio >= block.ratio) return;
+  block.ratio = ratio;
+  block.excess = std::max(before, behind) + aside;
 }
 
 std::optional<Block> Coverer::fit(Rectangle rectangle) const {
-  if (!trim(rectangle)) return std::nullopt;
+  if (!grid_.trim(rectangle)) return std::nullopt;
   Block level;
   level.rectangle = rectangle;
-  set_planes(level, false);
-  if (!within_reach(solid_of(level))) return std::nullopt;
-  if (level.excess <= kExact || rectangle.size() == 1) return level;
-  Block slanted;
-  slanted.rectangle = rectangle;
-  if (set_planes(slanted, true) && slanted.ratio < level.ratio) return slanted;
-  return level;
+  level.outline = grid_.outline(rectangle);
+  Plane slope = grid_.regression(rectangle);
+  if (slope.step() * (rectangle.v1 - rectangle.v0 + rectangle.u1 - rectangle.u0) <=
+      kLevel * std::abs(slope.at)) {
+    slope = {};
+  }
+  Block slanted = level;
+  const bool is_slanted = slope.step() > 0.0 && set_planes(slanted, slope);
+  // A level plane is exact where all ends are at one level, and may be better for a few columns.
+  if (!is_slanted || rectangle.size() < 64) {
+    set_planes(level, {});
+    if (!is_slanted || level.ratio <= slanted.ratio || level.excess <= kExact) slanted = level;
+  }
+  if (!within_reach(solid_of(slanted))) return std::nullopt;
+  return slanted;
 }
 
-Hexahedron Coverer::solid_of(const Block& block) const {
-  const Rectangle& r = block.rectangle;
-  const double u[2] = {-0.5, r.u1 - r.u0 - 0.5}, v[2] = {-0.5, r.v1 - r.v0 - 0.5};
-  constexpr int kTurn[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  Hexahedron solid;
-  for (std::size_t k = 0; k < 8; ++k) {
-    const double x = u[kTurn[k % 4][0]], y = v[kTurn[k % 4][1]];
-    const double w = k < 4 ? block.lower(x, y) : block.upper(x, y);
-    solid.corners[k] = columns_.space.point(r.u0 + x, r.v0 + y, w);
+Prism Coverer::solid_of(const Block& block) const {
+  Prism solid;
+  for (const Vector2d& corner : block.outline) {
+    const double u = block.rectangle.u0 + corner.x(), v = block.rectangle.v0 + corner.y();
+    solid.lower.push_back(space_.point(u, v, block.lower(corner.x(), corner.y())));
+    solid.upper.push_back(space_.point(u, v, block.upper(corner.x(), corner.y())));
   }
   return solid;
 }
 
-double Coverer::tolerance(const Hexahedron& solid) const {
+double Coverer::tolerance(const Prism& solid) const {
   if (balls_.empty()) return options_.excess;
   const Eigen::AlignedBox3d box = extent(solid);
   double distance = std::numeric_limits<double>::infinity();
@@ -378,44 +359,36 @@ double Coverer::tolerance(const Hexahedron& solid) const {
   return std::min(grown, std::max(options_.excess, options_.most_excess));
 }
 
-bool Coverer::within_reach(const Hexahedron& solid) const {
+bool Coverer::within_reach(const Prism& solid) const {
   return !options_.reach || extent(solid).exteriorDistance(reach_centre_) <= *options_.reach;
 }
 
-bool Coverer::is_near_place(const Hexahedron& solid) const {
+bool Coverer::is_near_place(const Prism& solid) const {
   return std::any_of(places_.begin(), places_.end(),
                      [&](const PlaceBox& place) { return may_meet(solid, place); });
 }
 
-void Coverer::split(const Block& block, std::vector<Block>& into) const {
-  Rectangle one = block.rectangle, two = block.rectangle;
-  if (one.u1 - one.u0 >= one.v1 - one.v0) {
-    one.u1 = two.u0 = (one.u0 + one.u1) / 2;
-  } else {
-    one.v1 = two.v0 = (one.v0 + one.v1) / 2;
+/// The block of two neighbours' common rectangle, if they make one and it is within tolerance.
+std::optional<Block> Coverer::joined(const Block& one, const Block& two) const {
+  const Rectangle &a = one.rectangle, &b = two.rectangle;
+  const bool beside = a.v0 == b.v0 && a.v1 == b.v1 && (a.u1 == b.u0 || b.u1 == a.u0);
+  const bool under = a.u0 == b.u0 && a.u1 == b.u1 && (a.v1 == b.v0 || b.v1 == a.v0);
+  if (!beside && !under) return std::nullopt;
+  std::optional<Block> both =
+      fit({std::min(a.v0, b.v0), std::max(a.v1, b.v1), std::min(a.u0, b.u0), std::max(a.u1, b.u1)});
+  if (!both || both->must_split() || both->ratio > std::max({1.0, one.ratio, two.ratio})) {
+    return std::nullopt;
   }
-  for (const Rectangle& half : {one, two}) {
-    if (std::optional<Block> fitted = fit(half)) into.push_back(std::move(*fitted));
-  }
+  return both;
 }
 
-/// Joins neighbours whose common rectangle is covered within tolerance.
 void Coverer::join(std::vector<Block>& blocks) const {
   for (int round = 0; round < kJoinRounds; ++round) {
     const std::size_t before = blocks.size();
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       for (std::size_t j = i + 1; j < blocks.size();) {
-        const Rectangle &a = blocks[i].rectangle, &b = blocks[j].rectangle;
-        const bool beside = a.v0 == b.v0 && a.v1 == b.v1 && (a.u1 == b.u0 || b.u1 == a.u0);
-        const bool under = a.u0 == b.u0 && a.u1 == b.u1 && (a.v1 == b.v0 || b.v1 == a.v0);
-        if (!beside && !under) {
-          ++j;
-          continue;
-        }
-        const double worst = std::max({1.0, blocks[i].ratio, blocks[j].ratio});
-        const std::optional<Block> both = fit({std::min(a.v0, b.v0), std::max(a.v1, b.v1),
-                                               std::min(a.u0, b.u0), std::max(a.u1, b.u1)});
-        if (!both || both->ratio > worst || (both->near_place && both->excess > kExact)) {
+        const std::optional<Block> both = joined(blocks[i], blocks[j]);
+        if (!both) {
           ++j;
           continue;
         }
@@ -427,38 +400,42 @@ void Coverer::join(std::vector<Block>& blocks) const {
   }
 }
 
-Cover Coverer::run() {
-  Cover cover;
-  std::vector<Block> done, fresh;
+/// Cuts until all is within tolerance or there are as many solids as may be.
+std::vector<Block> Coverer::cut() const {
+  std::vector<Block> done;
   std::priority_queue<Block, std::vector<Block>, Worse> waiting;
   int near = 0;  // of those that wait or are done
-  const auto add = [&](std::vector<Block>& blocks) {
-    for (Block& block : blocks) {
-      near += block.near_place ? 1 : 0;
-      waiting.push(std::move(block));
-    }
-    blocks.clear();
+  const auto add = [&](const Rectangle& rectangle) {
+    std::optional<Block> block = fit(rectangle);
+    if (!block) return;
+    near += block->near_place ? 1 : 0;
+    waiting.push(std::move(*block));
   };
-  if (all_.v0 < all_.v1) {
-    if (std::optional<Block> whole = fit(all_)) fresh.push_back(*whole);
-  }
-  add(fresh);
+  add(grid_.all());
   while (!waiting.empty()) {
     const Block block = waiting.top();
     waiting.pop();
-    const int total = static_cast<int>(waiting.size() + done.size()) + 1;
+    const int others = static_cast<int>(waiting.size() + done.size()) + 1 - near;
     const bool must = block.must_split() && near < kMostExactSolids;
-    const bool may = block.ratio > 1.0 && total - near < options_.most_solids;
+    const bool may = block.ratio > 1.0 && others < options_.most_solids;
     if (block.rectangle.size() == 1 || (!must && !may)) {
       done.push_back(block);
       continue;
     }
     near -= block.near_place ? 1 : 0;
-    split(block, fresh);
-    add(fresh);
+    Rectangle one, two;
+    grid_.cut(block.rectangle, one, two);
+    add(one);
+    add(two);
   }
-  join(done);
-  for (const Block& block : done) {
+  return done;
+}
+
+Cover Coverer::run() const {
+  std::vector<Block> blocks = cut();
+  join(blocks);
+  Cover cover;
+  for (const Block& block : blocks) {
     cover.solids.push_back(solid_of(block));
     cover.excess = std::max(cover.excess, block.excess);
     if (block.near_place && block.excess > kExact) cover.exact_at_places = false;
@@ -469,28 +446,42 @@ Cover Coverer::run() {
 }  // namespace
 
 Cover cover_columns(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options) {
-  return Coverer(columns, X_WD, options).run();
+  const bool any = std::any_of(columns.upper.begin(), columns.upper.end(),
+                               [](double w) { return !std::isnan(w); });
+  return any ? Coverer(columns, X_WD, options).run() : Cover{};
 }
 
-Shape shape_of(const Hexahedron& solid) {
-  const std::array<Vector3d, 8>& c = solid.corners;
+Shape shape_of(const Prism& solid) {
   Shape shape;
   const Eigen::AlignedBox3d box = extent(solid);
-  const bool upright = std::all_of(c.begin(), c.end(), [&](const Vector3d& corner) {
+  const auto is_corner = [&](const Vector3d& corner) {
     return (corner - box.min()).cwiseMin(box.max() - corner).isZero(kExact);
-  });
-  if (upright) {
+  };
+  if (solid.lower.size() == 4 && std::all_of(solid.lower.begin(), solid.lower.end(), is_corner) &&
+      std::all_of(solid.upper.begin(), solid.upper.end(), is_corner)) {
     shape.geometry = Box{box.sizes()};
     shape.X_BS.translation() = box.center();
     return shape;
   }
+  const int n = static_cast<int>(solid.lower.size());
   TriangleMesh mesh;
-  mesh.vertices.assign(c.begin(), c.end());
-  // Seen from outside the lower end turns one way, and the other for a camera that looks along +z.
-  const bool turned = (c[1] - c[0]).cross(c[3] - c[0]).dot(c[4] - c[0]) < 0.0;
-  for (const int* face : kFaces) {
-    mesh.triangles.emplace_back(face[0], face[turned ? 2 : 1], face[turned ? 1 : 2]);
-    mesh.triangles.emplace_back(face[0], face[turned ? 3 : 2], face[turned ? 2 : 3]);
+  mesh.vertices = solid.lower;
+  mesh.vertices.insert(mesh.vertices.end(), solid.upper.begin(), solid.upper.end());
+  // A camera looks along +z: its upper ends are the nearer ones.
+  const Vector3d up = solid.upper[0] - solid.lower[0];
+  const bool turned =
+      (solid.lower[1] - solid.lower[0]).cross(solid.lower[2] - solid.lower[0]).dot(up) < 0.0;
+  const auto add = [&](int a, int b, int c) {
+    mesh.triangles.emplace_back(a, turned ? c : b, turned ? b : c);
+  };
+  for (int i = 2; i < n; ++i) {
+    add(0, i, i - 1);
+    add(n, n + i - 1, n + i);
+  }
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    add(i, j, n + j);
+    add(i, n + j, n + i);
   }
   shape.geometry = MeshShape{std::make_shared<const TriangleMesh>(std::move(mesh)), true};
   return shape;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <vector>
 
 #include "handey/geometry/shape.hpp"
@@ -33,14 +32,14 @@ struct Columns {
   ColumnSpace space;
 };
 
-/// Corners: (least u, least v), (most u, least v), (most u, most v), (least u, most v) of the lower
-/// end, then of the upper.
-struct Hexahedron {
-  std::array<Eigen::Vector3d, 8> corners;
+/// A convex polygon of the grid between two planes: the corners of the lower end and those of the
+/// upper, counter-clockwise with u to the right and v up.
+struct Prism {
+  std::vector<Eigen::Vector3d> lower, upper;
 };
 
 struct Cover {
-  std::vector<Hexahedron> solids;  ///< map frame
+  std::vector<Prism> solids;  ///< map frame
   double excess = 0.0;
   bool exact_at_places = true;
 };
@@ -48,6 +47,6 @@ struct Cover {
 Cover cover_columns(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options);
 
 /// As a box where it is one, else as a convex mesh.
-Shape shape_of(const Hexahedron& solid);
+Shape shape_of(const Prism& solid);
 
 }  // namespace handey::world

@@ -73,7 +73,7 @@ MeasuredBody cover(const std::string& name, const world::Columns& columns, const
   measured.body.X_WB = X_WD;
   measured.excess = found.excess;
   measured.exact_at_places = found.exact_at_places;
-  for (const world::Hexahedron& solid : found.solids) {
+  for (const world::Prism& solid : found.solids) {
     measured.body.shapes.push_back(world::shape_of(solid));
   }
   return measured;

@@ -37,11 +37,10 @@ struct DepthImage {
 };
 
 struct DepthMapOptions {
-  double excess = 0.003;  ///< the solids may stand out by this much near the work [m]. Choice
-  /// and this much more per metre of distance from it. Choice
-  double growth = 0.05;
-  double most_excess = 0.02;  ///< but no more than this far from it [m]. Choice
-  /// Beyond this number the tolerance gives way. Choice: planning slows down by less than half
+  double excess = 0.003;      ///< solids may stand out by this much near the work [m]. Choice
+  double growth = 0.1;        ///< and this much more per metre of distance from it. Choice
+  double most_excess = 0.03;  ///< but no more than this, far from it [m]. Choice
+  /// With so many solids the tolerance gives way. Choice: what planning bears
   int most_solids = 160;
   /// Where parts stand, now or in the end. Within `exact_within` of them nothing stands out.
   std::vector<Body> places;
