@@ -1,4 +1,4 @@
-"""A cell about a real depth image: boxes on a table before a Kinect, and a part of ours beside them.
+"""A cell about a real depth image: boxes that a Kinect saw on a table, and a part beside them.
 
 The images are organised point clouds (PCD, LZF-compressed) of the mOSD data set, labelled by
 people: 1 is the table. Where the camera stood is found by a plane through the table's points.

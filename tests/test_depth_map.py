@@ -179,3 +179,58 @@ def test_what_stands_out_keeps_clear_of_the_robot_at_its_start(tmp_path):
     checker = _core.CollisionChecker(_core.make_collision_model(loaded.cell), loaded.cell)
     assert checker.is_free(loaded.cell.start, 1e-3)
     assert not checker.is_free(loaded.cell.start, 4e-3)
+
+
+def test_what_is_explained_altogether_is_no_obstacle(tmp_path):
+    seen = camera(tmp_path, np.full((60, 80), 1.0), explained=0.06)
+    path = write_cell(tmp_path, depth_maps={"camera": seen})
+    assert "camera" not in {fixture.name for fixture in handey.load_cell(path).cell.fixtures}
+    assert "camera" not in {body.name for body in read_cell(path).fixtures}
+    nothing = heap(tmp_path, np.zeros((5, 5)))
+    path = write_cell(tmp_path, depth_maps={"heap": nothing})
+    assert "heap" not in {fixture.name for fixture in handey.load_cell(path).cell.fixtures}
+    assert "heap" not in {body.name for body in read_cell(path).fixtures}
+
+
+def test_one_depth_map_explains_nothing_of_another(tmp_path):
+    # The scanner saw the same block as the camera.
+    maps = {
+        "heap": heap(tmp_path, np.full((10, 10), 0.1), at=(0.55, -0.045, 0.0)),
+        "camera": camera(tmp_path, np.where(np.arange(80) > 45, 0.9, 1.0) * np.ones((60, 1))),
+    }
+    planned, checked = planned_and_checked(write_cell(tmp_path, depth_maps=maps), "camera")
+    behind = np.array([[0.09, 0.0, 0.92], [0.12, 0.01, 0.95]])  # in the camera's frame
+    assert holds(planned, behind).all() and checked.shapes[0].inside(behind).all()
+
+
+def test_nothing_measured_at_all_is_refused_by_both(tmp_path):
+    blind = camera(tmp_path, np.zeros((60, 80)))
+    path = write_cell(tmp_path, depth_maps={"camera": blind})
+    for read in (handey.load_cell, read_cell):
+        with pytest.raises(InvalidInput) as caught:
+            read(path)
+        assert [fault.code for fault in caught.value.faults] == ["E_IMAGE"]
+
+
+def test_the_page_shows_a_coarse_picture_of_a_depth_map(tmp_path):
+    from handey.view import write_page
+
+    seen = camera(tmp_path, rough_depths(np.random.default_rng(2)), explained=0.013)
+    path = write_cell(tmp_path, depth_maps={"camera": seen})
+    write_page(path, None, tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    assert '"name":"camera"' in page
+    solid = next(body for body in read_cell(path).fixtures if body.name == "camera").shapes[0]
+    picture = solid.picture
+    assert np.all(np.abs(picture.vertices.min(axis=0) - solid.vertices.min(axis=0)) < 0.05)
+    assert np.all(np.abs(picture.vertices.max(axis=0) - solid.vertices.max(axis=0)) < 0.05)
+
+
+def test_a_picture_stands_where_the_heights_do(tmp_path):
+    heights = np.zeros((200, 300))
+    heights[40:80, 100:140] = 0.1
+    path = write_cell(tmp_path, depth_maps={"heap": heap(tmp_path, heights, 0.001)})
+    solid = next(body for body in read_cell(path).fixtures if body.name == "heap").shapes[0]
+    assert len(solid.picture.faces) < len(solid.faces) / 4
+    assert np.allclose(solid.picture.vertices.min(axis=0), solid.vertices.min(axis=0), atol=0.004)
+    assert np.allclose(solid.picture.vertices.max(axis=0), solid.vertices.max(axis=0), atol=0.004)

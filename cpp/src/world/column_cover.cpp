@@ -24,7 +24,7 @@ constexpr double kBehind = 4.0;
 constexpr int kMostExactSolids = 3000;  // Choice: of those that must be exact; beyond, none has to
 constexpr int kJoinRounds = 4;
 constexpr int kMany = 8000;            // columns: more have parts that are farther aside
-constexpr float kDiagonal = 1.41422f;  // of a square, a little more
+constexpr double kDiagonal = 1.41422;  // of a square, a little more
 constexpr double kThinnest = 1e-6;     // part of w that must lie between the planes at each corner
 constexpr double kLevel = 1e-12;       // a slope that changes w by less, as a part of it, is none
 constexpr double kRounding = 1e-13;    // of w
@@ -62,7 +62,7 @@ struct Spread {
 struct Fit {
   Spread upper, lower;                  // of all columns
   double highest = 0.0, deepest = 0.0;  // of full ones: highest upper end, deepest lower end
-  float aside = 0.0f;                   // [cells]
+  double aside = 0.0;                   // [cells]
 };
 
 struct PlaceBox {
@@ -136,8 +136,11 @@ bool may_meet(const Prism& solid, const PlaceBox& box) {
 
 class Coverer {
  public:
-  Coverer(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options)
-      : space_(columns.space), options_(options), grid_(columns, empty_cost(columns, options)) {
+  Coverer(Columns columns, const Pose& X_WD, const DepthMapOptions& options)
+      : space_(columns.space),
+        options_(options),
+        cost_(empty_cost(columns, options)),
+        grid_(std::move(columns), cost_) {
     set_places(X_WD);
   }
 
@@ -150,7 +153,7 @@ class Coverer {
   Fit measure(const Block& block, std::size_t spread) const;
   bool set_planes(Block& block, const Plane& upper) const;
   Plane behind(const Block& block, const Plane& upper) const;
-  void judge(Block& block, float cells, double upper_out, double lower_out, double allowed) const;
+  void judge(Block& block, double cells, double upper_out, double lower_out, double allowed) const;
   Prism solid_of(const Block& block) const;
   double tolerance(const Prism& solid) const;
   bool within_reach(const Prism& solid) const;
@@ -161,6 +164,7 @@ class Coverer {
 
   ColumnSpace space_;
   const DepthMapOptions& options_;
+  double cost_;
   ColumnGrid grid_;
   std::vector<PlaceBox> places_;
   std::vector<std::pair<Vector3d, double>> balls_;  // round the places, map frame
@@ -208,7 +212,7 @@ void Coverer::set_places(const Pose& X_WD) {
 Fit Coverer::measure(const Block& block, std::size_t spread) const {
   const Rectangle& r = block.rectangle;
   Fit fit;
-  fit.aside = spread > 0 ? kDiagonal * static_cast<float>(spread) : 0.0f;
+  fit.aside = spread > 0 ? kDiagonal * static_cast<double>(spread) : 0.0;
   Spread upper, lower;  // of full columns
   for (int v = 0; v < r.v1 - r.v0; ++v) {
     const auto [first, last] = row_of(block.outline, v, r.u1 - r.u0);
@@ -283,15 +287,17 @@ bool Coverer::set_planes(Block& block, const Plane& upper) const {
   block.ratio = std::numeric_limits<double>::infinity();
   consider(fit, upper_shift, lower_shift);
   const bool many = block.rectangle.size() > kMany;
-  for (std::size_t spread = 1; spread < kSpreads && block.ratio > 1.0 && !many; ++spread) {
-    consider(measure(block, spread), 0.0, 0.0);
+  for (std::size_t spread = 1; spread <= kSpreads && block.ratio > 1.0 && !many; ++spread) {
+    // Wide ends are rounded to single precision.
+    const double slack = 2e-7 * std::abs(block.upper.at);
+    consider(measure(block, spread), slack, -slack);
   }
   return true;
 }
 
 /// Lowers excess and ratio of a block whose planes stand out by no more than these amounts of w of
 /// what is at most `cells` columns aside of something solid.
-void Coverer::judge(Block& block, float cells, double upper_out, double lower_out,
+void Coverer::judge(Block& block, double cells, double upper_out, double lower_out,
                     double allowed) const {
   const Rectangle& r = block.rectangle;
   double before = upper_out, behind = lower_out, aside = cells * space_.cell;
@@ -445,10 +451,10 @@ Cover Coverer::run() const {
 
 }  // namespace
 
-Cover cover_columns(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options) {
+Cover cover_columns(Columns columns, const Pose& X_WD, const DepthMapOptions& options) {
   const bool any = std::any_of(columns.upper.begin(), columns.upper.end(),
                                [](double w) { return !std::isnan(w); });
-  return any ? Coverer(columns, X_WD, options).run() : Cover{};
+  return any ? Coverer(std::move(columns), X_WD, options).run() : Cover{};
 }
 
 Shape shape_of(const Prism& solid) {

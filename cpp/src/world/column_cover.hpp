@@ -44,7 +44,7 @@ struct Cover {
   bool exact_at_places = true;
 };
 
-Cover cover_columns(const Columns& columns, const Pose& X_WD, const DepthMapOptions& options);
+Cover cover_columns(Columns columns, const Pose& X_WD, const DepthMapOptions& options);
 
 /// As a box where it is one, else as a convex mesh.
 Shape shape_of(const Prism& solid);

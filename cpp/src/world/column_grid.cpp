@@ -135,14 +135,17 @@ ColumnGrid::Sums ColumnGrid::SumTable::of(int v0, int v1, int u0, int u1) const 
   return result;
 }
 
-ColumnGrid::ColumnGrid(const Columns& columns, double empty_cost)
+ColumnGrid::ColumnGrid(Columns columns, double empty_cost)
     : rows_(columns.rows), width_(columns.columns), empty_cost_(empty_cost) {
-  full_.resize(columns.upper.size());
-  for (std::size_t i = 0; i < full_.size(); ++i) full_[i] = !std::isnan(columns.upper[i]);
+  upper_ = std::move(columns.upper);
+  lower_ = std::move(columns.lower);
+  full_.resize(upper_.size());
+  for (std::size_t i = 0; i < full_.size(); ++i) full_[i] = !std::isnan(upper_[i]);
   count();
-  upper_[0] = columns.upper;
-  lower_[0] = columns.lower;
-  for (std::size_t to = 1; to < kSpreads; ++to) spread(to);
+  spread(upper_, lower_, wide_upper_[0], wide_lower_[0]);
+  for (std::size_t k = 1; k < kSpreads; ++k) {
+    spread(wide_upper_[k - 1], wide_lower_[k - 1], wide_upper_[k], wide_lower_[k]);
+  }
   fill_empty();
   int tile = 1;
   while (rows_ * (width_ / tile) / tile > kMostTiles) ++tile;
@@ -150,42 +153,54 @@ ColumnGrid::ColumnGrid(const Columns& columns, double empty_cost)
 }
 
 void ColumnGrid::fill_empty() {
-  NearestColumns nearest = nearest_columns(rows_, width_, full_);
-  distance_ = std::move(nearest.distance);
+  source_ = nearest_columns(rows_, width_, full_);
   for (std::size_t i = 0; i < full_.size(); ++i) {
-    if (full_[i] != 0 || nearest.source[i] < 0) continue;
-    const std::size_t source = static_cast<std::size_t>(nearest.source[i]);
+    if (full_[i] != 0 || source_[i] < 0) continue;
+    const std::size_t source = static_cast<std::size_t>(source_[i]);
+    upper_[i] = upper_[source];
+    lower_[i] = lower_[source];
     for (std::size_t k = 0; k < kSpreads; ++k) {
-      upper_[k][i] = upper_[0][source];
-      lower_[k][i] = lower_[0][source];
+      wide_upper_[k][i] = static_cast<float>(upper_[i]);
+      wide_lower_[k][i] = static_cast<float>(lower_[i]);
     }
   }
 }
 
+double ColumnGrid::distance(std::size_t i) const {
+  if (source_[i] < 0) return std::numeric_limits<double>::infinity();
+  const std::size_t source = static_cast<std::size_t>(source_[i]),
+                    width = static_cast<std::size_t>(width_);
+  const double du = static_cast<double>(i % width) - static_cast<double>(source % width),
+               dv = static_cast<double>(i / width) - static_cast<double>(source / width);
+  return std::sqrt(du * du + dv * dv);
+}
+
 /// One more column aside: first along each row, then across the rows. Empty columns have NaN ends
 /// and so do not take part.
-void ColumnGrid::spread(std::size_t to) {
-  const std::vector<double>&upper = upper_[to - 1], &lower = lower_[to - 1];
-  upper_[to].resize(upper.size());
-  lower_[to].resize(lower.size());
+template <class From>
+void ColumnGrid::spread(const std::vector<From>& upper, const std::vector<From>& lower,
+                        std::vector<float>& wide_upper, std::vector<float>& wide_lower) const {
+  wide_upper.resize(upper.size());
+  wide_lower.resize(lower.size());
   const std::size_t width = static_cast<std::size_t>(width_);
-  const auto reach = [](double own_upper, double own_lower, double other_upper, double other_lower,
-                        double& most, double& least) {
+  const auto reach = [](auto own_upper, auto own_lower, auto other_upper, auto other_lower,
+                        auto& most, auto& least) {
     most = other_lower <= own_upper ? std::max(most, other_upper) : most;
     least = other_upper >= own_lower ? std::min(least, other_lower) : least;
   };
   // Rows that are spread along themselves: the one before, this one, the one after.
-  std::array<std::vector<double>, 3> uppers, lowers;
+  std::array<std::vector<float>, 3> uppers, lowers;
   const auto along = [&](int v, std::size_t slot) {
-    const double *up = upper.data() + index(v, 0), *low = lower.data() + index(v, 0);
-    uppers[slot].assign(up, up + width);
-    lowers[slot].assign(low, low + width);
-    for (std::size_t u = 1; u + 1 < width; ++u) {
-      double most = up[u], least = low[u];
-      reach(up[u], low[u], up[u - 1], low[u - 1], most, least);
-      reach(up[u], low[u], up[u + 1], low[u + 1], most, least);
-      uppers[slot][u] = most;
-      lowers[slot][u] = least;
+    const From *up = upper.data() + index(v, 0), *low = lower.data() + index(v, 0);
+    uppers[slot].resize(width);
+    lowers[slot].resize(width);
+    for (std::size_t u = 0; u < width; ++u) {
+      From most = up[u], least = low[u];
+      const std::size_t before = u > 0 ? u - 1 : u, after = u + 1 < width ? u + 1 : u;
+      reach(up[u], low[u], up[before], low[before], most, least);
+      reach(up[u], low[u], up[after], low[after], most, least);
+      uppers[slot][u] = static_cast<float>(most);
+      lowers[slot][u] = static_cast<float>(least);
     }
   };
   along(0, 1);
@@ -194,15 +209,13 @@ void ColumnGrid::spread(std::size_t to) {
                       after = static_cast<std::size_t>(v + 2) % 3,
                       before = static_cast<std::size_t>(v) % 3;
     if (v + 1 < rows_) along(v + 1, after);
-    const double *up = uppers[own].data(), *low = lowers[own].data();
-    const double *over_up = v > 0 ? uppers[before].data() : up,
-                 *over_low = v > 0 ? lowers[before].data() : low,
-                 *under_up = v + 1 < rows_ ? uppers[after].data() : up,
-                 *under_low = v + 1 < rows_ ? lowers[after].data() : low;
-    double *most_out = upper_[to].data() + index(v, 0),
-           *least_out = lower_[to].data() + index(v, 0);
+    const std::size_t over = v > 0 ? before : own, under = v + 1 < rows_ ? after : own;
+    const float *up = uppers[own].data(), *low = lowers[own].data();
+    const float *over_up = uppers[over].data(), *over_low = lowers[over].data();
+    const float *under_up = uppers[under].data(), *under_low = lowers[under].data();
+    float *most_out = wide_upper.data() + index(v, 0), *least_out = wide_lower.data() + index(v, 0);
     for (std::size_t u = 0; u < width; ++u) {
-      double most = up[u], least = low[u];
+      float most = up[u], least = low[u];
       reach(up[u], low[u], over_up[u], over_low[u], most, least);
       reach(up[u], low[u], under_up[u], under_low[u], most, least);
       most_out[u] = most;
@@ -245,7 +258,7 @@ ColumnGrid::SumTable ColumnGrid::table_of(const Rectangle& r, int tile) const {
     int left = tile;
     for (int u = r.u0; u < r.u1; ++u) {
       const std::size_t i = index(v, u);
-      if (full_[i] != 0) row->add(u - r.u0, v - r.v0, upper_[0][i]);
+      if (full_[i] != 0) row->add(u - r.u0, v - r.v0, upper_[i]);
       if (--left == 0) {
         left = tile;
         ++row;
@@ -292,7 +305,7 @@ Plane ColumnGrid::regression(const Rectangle& r) const {
     int k = next;
     for (; k < r.u1 - r.u0; k += stride) {
       const std::size_t i = index(v, r.u0 + k);
-      if (full_[i] != 0) sums.add(k - middle_u, v - r.v0 - middle_v, upper_[0][i]);
+      if (full_[i] != 0) sums.add(k - middle_u, v - r.v0 - middle_v, upper_[i]);
     }
     next = k - (r.u1 - r.u0);
   }

@@ -24,21 +24,25 @@ struct Plane {
   double step() const;  ///< most that it changes across a cell
 };
 
-constexpr std::size_t kSpreads = 3;  // 0 is none
+constexpr std::size_t kSpreads = 2;  // besides none
 
 class ColumnGrid {
  public:
   /// @param empty_cost  of an empty column in a rectangle, as the square of w: what is best cut
-  ColumnGrid(const Columns& columns, double empty_cost);
+  ColumnGrid(Columns columns, double empty_cost);
 
   bool is_full(std::size_t i) const { return full_[i] != 0; }
   /// Ends of the column, or of a full one near it. Spread 1 or 2: the farthest ends that are
   /// reached from this column over neighbours, as many columns aside along each side, without
   /// leaving what is solid: what lies between is so near to something solid.
-  double upper(std::size_t i, std::size_t spread) const { return upper_[spread][i]; }
-  double lower(std::size_t i, std::size_t spread) const { return lower_[spread][i]; }
+  double upper(std::size_t i, std::size_t spread) const {
+    return spread == 0 ? upper_[i] : static_cast<double>(wide_upper_[spread - 1][i]);
+  }
+  double lower(std::size_t i, std::size_t spread) const {
+    return spread == 0 ? lower_[i] : static_cast<double>(wide_lower_[spread - 1][i]);
+  }
   /// To that one, between centres [cells].
-  float distance(std::size_t i) const { return distance_[i]; }
+  double distance(std::size_t i) const;
   std::size_t index(int v, int u) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(u);
@@ -71,7 +75,9 @@ class ColumnGrid {
   };
 
   void fill_empty();
-  void spread(std::size_t to);
+  template <class From>
+  void spread(const std::vector<From>& upper, const std::vector<From>& lower,
+              std::vector<float>& wide_upper, std::vector<float>& wide_lower) const;
   void count();
   SumTable table_of(const Rectangle& rectangle, int tile) const;
   int count_in(const Rectangle& rectangle) const;
@@ -80,8 +86,9 @@ class ColumnGrid {
   int rows_, width_;
   double empty_cost_;
   std::vector<char> full_;
-  std::array<std::vector<double>, kSpreads> upper_, lower_;
-  std::vector<float> distance_;
+  std::vector<double> upper_, lower_;
+  std::array<std::vector<float>, kSpreads> wide_upper_, wide_lower_;
+  std::vector<std::int32_t> source_;  // full column near each
   std::vector<std::int32_t> counts_;  // full columns above and to the left
   SumTable tiles_;
 };

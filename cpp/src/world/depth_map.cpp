@@ -65,9 +65,9 @@ std::vector<double> solid_heights(const HeightMap& map) {
   return heights;
 }
 
-MeasuredBody cover(const std::string& name, const world::Columns& columns, const Pose& X_WD,
+MeasuredBody cover(const std::string& name, world::Columns columns, const Pose& X_WD,
                    const DepthMapOptions& options) {
-  const world::Cover found = world::cover_columns(columns, X_WD, options);
+  const world::Cover found = world::cover_columns(std::move(columns), X_WD, options);
   MeasuredBody measured;
   measured.body.name = name;
   measured.body.X_WB = X_WD;
@@ -90,7 +90,7 @@ MeasuredBody cover_heights(const std::string& name, const HeightMap& map,
   for (double& height : columns.upper) {
     if (!(height > 0.0)) height = kNothing;
   }
-  return cover(name, columns, map.X_WD, options);
+  return cover(name, std::move(columns), map.X_WD, options);
 }
 
 MeasuredBody cover_depths(const std::string& name, const DepthImage& image,
@@ -111,7 +111,7 @@ MeasuredBody cover_depths(const std::string& name, const DepthImage& image,
     columns.upper[i] = taken_out ? kNothing : 1.0 / depth;
     columns.lower[i] = taken_out ? kNothing : 1.0 / (depth + image.far);
   }
-  return cover(name, columns, image.X_WD, options);
+  return cover(name, std::move(columns), image.X_WD, options);
 }
 
 ReachBall reach_ball(const Cell& cell) {

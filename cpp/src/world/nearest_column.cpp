@@ -1,27 +1,25 @@
 // Sources handed on by two sweeps, down and up; each row by two of its own, right and left.
 #include "nearest_column.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace handey::world {
 
-NearestColumns nearest_columns(int rows, int columns, const std::vector<char>& full) {
-  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max() / 2;
+std::vector<std::int32_t> nearest_columns(int rows, int columns, const std::vector<char>& full) {
+  constexpr std::uint16_t kFar = 60'000;
   const std::size_t width = static_cast<std::size_t>(columns);
-  std::vector<std::int32_t> steps(full.size(), kFar);
-  NearestColumns result;
-  result.source.assign(full.size(), -1);
+  std::vector<std::uint16_t> steps(full.size(), kFar);
+  std::vector<std::int32_t> source(full.size(), -1);
   for (std::size_t i = 0; i < full.size(); ++i) {
     if (full[i] == 0) continue;
     steps[i] = 0;
-    result.source[i] = static_cast<std::int32_t>(i);
+    source[i] = static_cast<std::int32_t>(i);
   }
   const auto take = [&](std::size_t own, std::size_t other) {
-    const bool nearer = steps[other] + 1 < steps[own];
-    steps[own] = nearer ? steps[other] + 1 : steps[own];
-    result.source[own] = nearer ? result.source[other] : result.source[own];
+    const std::uint16_t next = static_cast<std::uint16_t>(steps[other] + 1);
+    const bool nearer = next < steps[own];
+    steps[own] = nearer ? next : steps[own];
+    source[own] = nearer ? source[other] : source[own];
   };
   const auto sweep = [&](std::size_t row) {
     for (std::size_t u = 1; u < width; ++u) take(row + u, row + u - 1);
@@ -37,16 +35,7 @@ NearestColumns nearest_columns(int rows, int columns, const std::vector<char>& f
     for (std::size_t u = 0; u < width; ++u) take(row + u, row + u + width);
     sweep(row);
   }
-  result.distance.assign(full.size(), std::numeric_limits<float>::infinity());
-  for (std::size_t i = 0; i < full.size(); ++i) {
-    if (steps[i] == 0) result.distance[i] = 0.0f;
-    if (steps[i] == 0 || result.source[i] < 0) continue;
-    const std::size_t source = static_cast<std::size_t>(result.source[i]);
-    const float du = static_cast<float>(i % width) - static_cast<float>(source % width),
-                dv = static_cast<float>(i / width) - static_cast<float>(source / width);
-    result.distance[i] = std::sqrt(du * du + dv * dv);
-  }
-  return result;
+  return source;
 }
 
 }  // namespace handey::world

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from handey.check.depth import joined, probes_of, surface_of
+from handey.check.depth import group_for, joined, pooled, probes_of, surface_of
 from handey.check.kinematics import forward
 from handey.check.shapes import Shape, transformed
 from handey.check.values import Array, fault, keys, number, pose, positive, text
@@ -24,7 +24,14 @@ from handey.check.values import Array, fault, keys, number, pose, positive, text
 if TYPE_CHECKING:
     from handey.check.cell import Cell
 
-__all__ = ["camera_surface", "explained_pixels", "near_surface", "read_camera", "read_png"]
+__all__ = [
+    "camera_solid",
+    "camera_surface",
+    "explained_pixels",
+    "near_surface",
+    "read_camera",
+    "read_png",
+]
 
 EXPLAINED, FAR = 0.005, 0.3  # defaults [m]: format
 MOST_PIXELS = 2**24
@@ -51,7 +58,7 @@ def read_camera(folder: Path, value: dict[str, Any], file: str, place: str, cell
     known = explained_pixels(world, cell, tolerance)
     filled = _holes_filled(depth, measured)
     filled[rows[known], columns[known]] = np.nan
-    return camera_surface(filled, (fx, fy, cx, cy), far)
+    return camera_solid(filled, (fx, fy, cx, cy), far)
 
 
 def explained_pixels(points: Array, cell: Cell, tolerance: float) -> np.ndarray:
@@ -147,10 +154,33 @@ def _holes_filled(depth: Array, measured: np.ndarray) -> Array:
     return np.where(np.isfinite(filled), filled, np.nan)
 
 
+def camera_solid(depth: Array, lens: tuple[float, float, float, float], far: float) -> Shape:
+    """The cones behind the pixels of an image as one solid; NaN is an empty pixel."""
+    fx, fy, cx, cy = lens
+    where = probes_of(depth, depth + far)
+    z = depth[where]
+    probes = np.stack([(where[1] - 0.5 - cx) / fx * z, (where[0] - 0.5 - cy) / fy * z, z], axis=-1)
+
+    def inside(points: Array) -> np.ndarray:
+        result = points[:, 2] > 0
+        ahead = points[result]
+        i = np.floor(fy * ahead[:, 1] / ahead[:, 2] + cy + 0.5)
+        j = np.floor(fx * ahead[:, 0] / ahead[:, 2] + cx + 0.5)
+        seen = (i >= 0) & (i < depth.shape[0]) & (j >= 0) & (j < depth.shape[1])
+        front = depth[i[seen].astype(int), j[seen].astype(int)]
+        seen[seen] = (ahead[seen, 2] >= front) & (ahead[seen, 2] <= front + far)  # NaN: False
+        result[result] = seen
+        return result
+
+    group = group_for(int(np.isfinite(depth).sum()))
+    coarse = (fx / group, fy / group, (cx + 0.5) / group - 0.5, (cy + 0.5) / group - 0.5)
+    picture = camera_surface(pooled(depth, group), coarse, far)
+    return replace(camera_surface(depth, lens, far), inside=inside, probes=probes, picture=picture)
+
+
 def camera_surface(depth: Array, lens: tuple[float, float, float, float], far: float) -> Shape:
     """The surface of the cones behind the pixels of an image; NaN is an empty pixel."""
     fx, fy, cx, cy = lens
-    lens_axes = ((0, fx, cx), (1, fy, cy))
     d = np.pad(depth, 1, constant_values=np.nan)
     quads: list[Array] = []
 
@@ -185,21 +215,7 @@ def camera_surface(depth: Array, lens: tuple[float, float, float, float], far: f
                 ring = [corner(x, y, low[some]) for x, y in (p, q)]
                 ring += [corner(x, y, high[some]) for x, y in (q, p)]
                 quads.append(np.stack(ring, axis=1))
-    where = probes_of(depth, depth + far)
-    z = depth[where]
-    probes = corner(where[1] - 0.5, where[0] - 0.5, z)
-
-    def inside(points: Array) -> np.ndarray:
-        result = points[:, 2] > 0
-        ahead = points[result]
-        j, i = (np.floor(f * ahead[:, k] / ahead[:, 2] + c + 0.5) for k, f, c in lens_axes)
-        seen = (i >= 0) & (i < depth.shape[0]) & (j >= 0) & (j < depth.shape[1])
-        front = depth[i[seen].astype(int), j[seen].astype(int)]
-        seen[seen] = (ahead[seen, 2] >= front) & (ahead[seen, 2] <= front + far)  # NaN: False
-        result[result] = seen
-        return result
-
-    return replace(surface_of(np.vstack(quads)), inside=inside, probes=probes)
+    return surface_of(np.vstack(quads))
 
 
 # ------------------------------------------------------------------------------------------- files

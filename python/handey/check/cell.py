@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from handey.check.camera import read_camera
-from handey.check.depth import column_surface, read_heights
+from handey.check.depth import heights_solid, read_heights
 from handey.check.robot import Robot, read_robot
 from handey.check.shapes import Shape, box, cylinder, read_mesh, sphere
 from handey.check.values import Array, fault, keys, load_yaml, number, pose, positive, text, vector
@@ -123,9 +123,11 @@ class _Reader:
             self.choice(content, "order", ("given", "any")),
             self.choice(content, "finish", ("start", "anywhere")),
         )  # fmt: skip
-        for name, map_ in self.named(content, "depth_maps"):
-            fixtures.append(self.depth_map(name, map_, f"depth_maps.{name}", cell))
-        names = [body.name for body in fixtures + parts]
+        # What one depth map shows explains nothing of another.
+        maps = self.named(content, "depth_maps")
+        measured = [self.depth_map(n, m, f"depth_maps.{n}", cell) for n, m in maps]
+        names = [body.name for body in fixtures + parts + measured]
+        fixtures += [body for body in measured if len(body.shapes[0].faces)]
         for name in names:
             if names.count(name) > 1:
                 raise fault("E_DUP", self.file, name, "is the name of two bodies")
@@ -210,7 +212,7 @@ class _Reader:
                 self.path.parent / value["heights"], self.file, f"{place}.heights"
             )
             side = positive(value["cell"], self.file, f"{place}.cell")
-            shape = column_surface(heights, side)
+            shape = heights_solid(heights, side)
         else:
             shape = read_camera(self.path.parent, value, self.file, place, cell)
         return Body(name, [shape], pose(value.get("pose"), self.file, f"{place}.pose"))

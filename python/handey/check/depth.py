@@ -7,6 +7,7 @@ differ.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,18 @@ import numpy as np
 from handey.check.shapes import Shape
 from handey.check.values import Array, fault
 
-__all__ = ["column_surface", "joined", "probes_of", "read_heights", "surface_of"]
+__all__ = [
+    "column_surface",
+    "group_for",
+    "heights_solid",
+    "joined",
+    "pooled",
+    "probes_of",
+    "read_heights",
+    "surface_of",
+]
+
+PICTURE_COLUMNS = 8000  # Choice: a page of about 3 MB
 
 
 def read_heights(path: Path, file: str, place: str) -> Array:
@@ -30,6 +42,40 @@ def read_heights(path: Path, file: str, place: str) -> Array:
     if np.isinf(heights).any() or np.isnan(heights).all():
         raise fault("E_NPY", file, place, f"{path}: infinite heights, or nothing measured")
     return np.asarray(np.where(np.isnan(heights), np.nanmax(heights), heights))
+
+
+def heights_solid(heights: Array, side: float) -> Shape:
+    """The columns as one solid: entry [0, 0] centred on the origin, rows along +y."""
+    high = np.where(heights > 0, heights, np.nan)
+    where = probes_of(np.zeros_like(heights), high)
+    probes = np.stack([where[1] - 0.5, where[0] - 0.5, np.zeros(len(where[0]))], axis=-1) * side
+
+    def inside(points: Array) -> np.ndarray:
+        i, j = (np.floor(points[:, k] / side + 0.5) for k in (1, 0))
+        result = (i >= 0) & (i < heights.shape[0]) & (j >= 0) & (j < heights.shape[1])
+        z = points[result, 2]
+        result[result] = (z >= 0) & (z <= heights[i[result].astype(int), j[result].astype(int)])
+        return np.asarray(result)
+
+    group = group_for(heights.size)
+    picture = column_surface(-pooled(-heights, group), side * group)
+    first = np.array([(group - 1) / 2 * side, (group - 1) / 2 * side, 0.0])
+    picture = replace(picture, vertices=picture.vertices + first)
+    return replace(column_surface(heights, side), inside=inside, probes=probes, picture=picture)
+
+
+def group_for(count: int) -> int:
+    """How many columns to a side become one in pictures."""
+    return max(1, math.ceil(math.sqrt(count / PICTURE_COLUMNS)))
+
+
+def pooled(values: Array, group: int) -> Array:
+    """The least of each square of `group` x `group` values; NaN where all are."""
+    rows, columns = (-(-n // group) for n in values.shape)
+    whole = np.full((rows * group, columns * group), np.inf)
+    whole[: values.shape[0], : values.shape[1]] = np.where(np.isnan(values), np.inf, values)
+    least = whole.reshape(rows, group, columns, group).min(axis=(1, 3))
+    return np.asarray(np.where(np.isinf(least), np.nan, least))
 
 
 def column_surface(heights: Array, side: float) -> Shape:
@@ -59,19 +105,7 @@ def column_surface(heights: Array, side: float) -> Shape:
         # by itself.
         corners = [(x0, y0, zb), (x1, y1, zb), (x1, y1, za), (x0, y0, za)]
         quads.append(np.stack([np.stack(corner, axis=-1) for corner in corners], axis=1))
-    low = np.zeros_like(heights)
-    high = np.where(heights > 0, heights, np.nan)
-    where = probes_of(low, high)
-    probes = np.stack([(where[1] - 0.5) * side, (where[0] - 0.5) * side, low[where]], axis=-1)
-
-    def inside(points: Array) -> np.ndarray:
-        i, j = (np.floor(points[:, k] / side + 0.5) for k in (1, 0))
-        result = (i >= 0) & (i < heights.shape[0]) & (j >= 0) & (j < heights.shape[1])
-        z = points[result, 2]
-        result[result] = (z >= 0) & (z <= heights[i[result].astype(int), j[result].astype(int)])
-        return np.asarray(result)
-
-    return replace(surface_of(np.vstack(quads)), inside=inside, probes=probes)
+    return surface_of(np.vstack(quads))
 
 
 def probes_of(low: Array, high: Array) -> tuple[np.ndarray, ...]:
@@ -110,5 +144,14 @@ def surface_of(quads: Array) -> Shape:
     n = len(quads)
     corners = np.arange(4 * n).reshape(n, 4)
     faces = np.vstack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
-    points, index = np.unique(np.round(quads.reshape(-1, 3), 9), axis=0, return_inverse=True)
-    return Shape("mesh", (), np.eye(4), points, index.reshape(-1)[faces], closed=True, convex=False)
+    points = np.round(quads.reshape(-1, 3), 9)
+    # Equal points have equal sums; different ones with equal sums are left as they are.
+    sums = points[:, 0] + np.sqrt(2.0) * points[:, 1] + np.sqrt(3.0) * points[:, 2]
+    _, first, index = np.unique(sums, return_index=True, return_inverse=True)
+    apart = np.any(points[first][index.reshape(-1)] != points, axis=1)
+    index = index.reshape(-1)
+    index[apart] = len(first) + np.arange(apart.sum())
+    points = np.vstack([points[first], points[apart]])
+    return Shape(
+        "mesh", (), np.eye(4), points, index.reshape(-1)[faces], True, False, is_measured=True
+    )

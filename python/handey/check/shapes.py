@@ -48,6 +48,8 @@ class Shape:
         inside: of a measured solid: which points (n, 3) of its own frame lie in it (n,); None: the
             triangles tell.
         probes: of a measured solid: a vertex of each part of it that does not touch another (k, 3).
+        picture: of a measured solid: a coarser one, to be looked at.
+        is_measured: made of columns.
     """
 
     kind: str
@@ -59,6 +61,8 @@ class Shape:
     convex: bool = True
     inside: Callable[[Array], np.ndarray] | None = None
     probes: Array | None = None
+    picture: Shape | None = None
+    is_measured: bool = False
 
     def points(self) -> Array:
         """The vertices in the body frame (n, 3)."""

@@ -129,16 +129,17 @@ def _geometry(shape: Shape) -> coal.CollisionGeometry:
         return coal.Cylinder(*shape.size)
     if shape.kind == "sphere":
         return coal.Sphere(*shape.size)
-    points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-    for vertex in shape.vertices:
-        points.append(vertex)
-    for face in shape.faces:
-        triangles.append(coal.Triangle(*map(int, face)))
     if shape.convex:
+        points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+        for vertex in shape.vertices:
+            points.append(vertex)
+        for face in shape.faces:
+            triangles.append(coal.Triangle(*map(int, face)))
         return coal.Convex(points, triangles)
     model = coal.BVHModelOBBRSS()
     model.beginModel(len(shape.faces), len(shape.vertices))
-    model.addSubModel(points, triangles)
+    model.addVertices(np.asarray(shape.vertices, dtype=float))
+    model.addTriangles(np.asarray(shape.faces, dtype=np.int64))
     model.endModel()
     model.computeLocalAABB()
     return model

@@ -107,7 +107,9 @@ class _Meshes:
         key = vertices.tobytes() + b"|" + faces.tobytes()
         if key not in self._known:
             self._known[key] = len(self.list)
-            edges = np.asarray(_creases(shape), "<u4")
+            # The steps between columns would blacken a measured solid.
+            creases = np.zeros((0, 2)) if shape.is_measured else _creases(shape)
+            edges = np.asarray(creases, "<u4")
             self.list.append({"v": _packed(vertices), "f": _packed(faces), "e": _packed(edges)})
         return self._known[key]
 
@@ -139,7 +141,10 @@ def _scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
     meshes = _Meshes()
 
     def shapes(items: list[Shape]) -> list[dict[str, Any]]:
-        return [{"mesh": meshes.add(shape), "pose": _matrix(shape.pose)} for shape in items]
+        return [
+            {"mesh": meshes.add(shape.picture or shape), "pose": _matrix(shape.pose)}
+            for shape in items
+        ]
 
     def body(item: Body) -> dict[str, Any]:
         return {"name": item.name, "pose": _matrix(item.pose), "shapes": shapes(item.shapes)}
