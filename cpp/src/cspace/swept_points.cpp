@@ -22,11 +22,10 @@ std::vector<Vector3d> swept(const ArmJoint& joint, double lower, double upper,
   const auto add = [&corners](double angle, double scale) {
     corners.push_back({scale * std::cos(angle), scale * std::sin(angle)});
   };
+  // Where two parts of the arc meet lies half way between the points out of their middles.
   add(lower, 1.0);
-  for (int i = 0; i < parts && part > 0.0; ++i) {
-    add(lower + (i + 0.5) * part, outwards);
-    add(lower + (i + 1) * part, 1.0);
-  }
+  for (int i = 0; i < parts && part > 0.0; ++i) add(lower + (i + 0.5) * part, outwards);
+  if (part > 0.0) add(upper, 1.0);
   std::vector<Vector3d> all;
   all.reserve(points.size() * corners.size());
   for (const Vector3d& point : points) {
@@ -57,7 +56,7 @@ std::size_t sweep_growth(int from, int depth, const Eigen::VectorXd& lower,
   double count = 1.0;
   for (int j = from; j < depth; ++j) {
     const double range = upper(j - 3) - lower(j - 3);
-    if (range > 0.0) count *= 1.0 + 2.0 * std::ceil(range / kArc);
+    if (range > 0.0) count *= 2.0 + std::ceil(range / kArc);
   }
   return static_cast<std::size_t>(std::min(count, 1e9));
 }
