@@ -13,6 +13,10 @@ namespace handey::cspace {
 struct RingSpan {
   int ring = 0;
   double lower = 0.0, upper = 0.0;
+
+  // To be made in place: a copy from the stack would wait for the stores of its parts.
+  RingSpan(int ring_in, double lower_in, double upper_in)
+      : ring(ring_in), lower(lower_in), upper(upper_in) {}
 };
 
 /// Ring i holds the radii from i * width to (i + 1) * width, limits included.
@@ -32,28 +36,58 @@ class PolarRaster {
 
  private:
   struct Edge;
+  /// Points whose angles are found all at once, side by side in the processor's registers.
+  struct Crossings {
+    std::vector<double> x, y;   ///< [m]
+    std::vector<double> floor;  ///< the angle is taken to be at least this [rad]
+    std::vector<double> angle;  ///< [rad]
+    std::size_t count = 0;
+
+    void clear(std::size_t most);
+    int add(const Eigen::Vector2d& point, double floor_angle) {
+      x[count] = point.x();
+      y[count] = point.y();
+      floor[count] = floor_angle;
+      return static_cast<int>(count++);
+    }
+  };
+  /// Of a ring: crossings where the far side begins and ceases to be beyond it.
+  struct FarSpan {
+    int ring, from, to;
+    FarSpan(int ring_in, int from_in, int to_in) : ring(ring_in), from(from_in), to(to_in) {}
+  };
+  /// A crossing of the near side with a ring's outer circle.
+  struct NearCrossing {
+    int ring, crossing;
+    NearCrossing(int ring_in, int crossing_in) : ring(ring_in), crossing(crossing_in) {}
+  };
+
   /// @return false: the origin is inside
   bool measure(const Polygon& polygon, double& nearest, double& farthest);
   void add_circles(double farthest, std::vector<RingSpan>& spans) const;
-  void start_far_side(double radius, double angle);
-  void walk_far_edge(const Edge& edge, std::vector<RingSpan>& spans);
+  int meet(const Edge& edge, double along);
+  void walk_far_side(std::size_t begin, double start);
+  void walk_far_edge(const Edge& edge);
   void walk_near_side(std::size_t begin);
   void walk_near_edge(const Edge& edge);
   void note(int ring, double angle);
   void note_from(double radius, double angle);
-  void close(int ring, double angle, std::vector<RingSpan>& spans) const;
+  void take_spans(std::vector<RingSpan>& spans);
   double angle_at(const Edge& edge, double along) const;
 
   double width_;
   int rings_;
   std::vector<Edge> edges_;
   double floor_angle_ = 0.0;  ///< angles are taken to be at least this
+  Crossings crossings_;
   // The rings looked at: first_ .. last_ - 1. The far side as it is walked: rings first_ .. top_
-  // are met from the angle opened_[ring] on.
+  // are met from the crossing opened_[ring] on.
   int first_ = 0, last_ = 0, top_ = -1;
-  std::vector<double> opened_;
+  std::vector<int> opened_;
+  std::vector<FarSpan> far_;
   // The near side: the angles at which it lies within the ring's outer radius.
   bool has_near_side_ = false;
+  std::vector<NearCrossing> near_;
   std::vector<double> near_lower_, near_upper_;
 };
 
@@ -61,8 +95,5 @@ class PolarRaster {
 /// polygon (or point, or segment); corners are rounded by tangents no more than `widest` apart
 /// [rad].
 void grow(const Polygon& polygon, double distance, double widest, Polygon& grown);
-
-/// atan2 to 1.2e-5 rad.
-double fast_angle(double y, double x);
 
 }  // namespace handey::cspace

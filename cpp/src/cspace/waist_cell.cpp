@@ -67,6 +67,7 @@ WaistCell::WaistCell(const ArmPlane& plane, double q1, double half_width)
   waist_lateral_ = plane.waist_point.z();
   sine_ = std::sin(half_width);
   cosine_ = std::cos(half_width);
+  outwards_ = 1.0 / cosine_;
   edge_on_ = std::abs(axis_.z()) < 1e-10 && std::abs(axis_.x()) < 1e-10;
 }
 
@@ -156,10 +157,10 @@ void WaistCell::add_clipped(double lower, double upper) {
 void WaistCell::add_swept(const Vector3d& corner) {
   if (edge_on_) {
     // One line, along x: the axis is along y.
-    const double middle = cosine_ * corner.x(), apex = corner.x() / cosine_;
+    const double middle = cosine_ * corner.x(), apex = corner.x() * outwards_;
     const double reach = std::abs(sine_ * corner.z());
-    levels_.push_back({waist_.y() + corner.y(), waist_.x() + std::min(middle - reach, apex),
-                       waist_.x() + std::max(middle + reach, apex)});
+    levels_.emplace_back(waist_.y() + corner.y(), waist_.x() + std::min(middle - reach, apex),
+                         waist_.x() + std::max(middle + reach, apex));
     return;
   }
   const Vector3d on_axis = axis_ * axis_.dot(corner);
@@ -169,7 +170,7 @@ void WaistCell::add_swept(const Vector3d& corner) {
   const Vector2d middle = cosine_ * radial.head<2>(), swing = sine_ * sideways.head<2>();
   swept_.push_back(centre + middle + swing);
   swept_.push_back(centre + middle - swing);
-  swept_.push_back(centre + radial.head<2>() / cosine_);
+  swept_.push_back(centre + radial.head<2>() * outwards_);
 }
 
 /// Andrew's monotone chain.

@@ -77,7 +77,9 @@ class WaistCell {
   };
   /// What a corner sweeps where that is parallel to x [m].
   struct Level {
-    double y = 0.0, lower = 0.0, upper = 0.0;
+    double y, lower, upper;
+    Level(double y_in, double lower_in, double upper_in)
+        : y(y_in), lower(lower_in), upper(upper_in) {}
   };
   void set_reaches();
   void add_swept(const Eigen::Vector3d& corner);
@@ -89,7 +91,7 @@ class WaistCell {
   Eigen::Vector3d p_R_;  // of the waist in R
   Eigen::Vector3d axis_, forward_, across_;
   Eigen::Vector2d waist_;
-  double sine_ = 0.0, cosine_ = 1.0, waist_lateral_ = 0.0;
+  double sine_ = 0.0, cosine_ = 1.0, outwards_ = 1.0, waist_lateral_ = 0.0;
   bool edge_on_ = false;
   const SceneHull* hull_ = nullptr;
   std::vector<Corner> corners_;
