@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 
+#include "folded_arm.hpp"
 #include "handey/errors.hpp"
 #include "map_union.hpp"
 #include "slice_layer.hpp"
@@ -115,9 +116,6 @@ struct Slice::Impl {
 
   void ask_hand(const WristRange& wrist, double opening);
   void block_whatever_waist();
-  std::vector<std::vector<Polygon>> ways(const std::vector<Polygon>& outlines) const;
-  void block_columns();
-  void block_column(int column);
   void unite_lower(std::vector<std::uint8_t>& bytes);
   void make_tori();
   void build(int layer);
@@ -134,54 +132,6 @@ void Slice::Impl::ask_hand(const WristRange& wrist, double opening) {
   }
 }
 
-/// What the forearm's parts sweep in each cell of theta3, about axis 2 at theta2 = 0: by outline,
-/// then by column.
-std::vector<std::vector<Polygon>> Slice::Impl::ways(const std::vector<Polygon>& outlines) const {
-  const ArmPlane& plane = table.links.plane;
-  const double half = 0.5 * table.lattice.cell_width(table.level, 2);
-  std::vector<std::vector<Polygon>> all(outlines.size());
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    for (int column = 0; column < columns(); ++column) {
-      const double angle = plane.elbow_sense * table.lattice.centre(table.level, 2, column);
-      all[i].push_back(cspace::swept(outlines[i], angle, half, plane.elbow));
-    }
-  }
-  return all;
-}
-
-void Slice::Impl::block_columns() {
-  // The hand's balls, then what joint 4 turns.
-  std::vector<std::vector<std::vector<Polygon>>> moved;
-  for (const cspace::PlaneBall& ball : scene.balls) moved.push_back(ways({{ball.centre}}));
-  for (const cspace::LinkGroup& group : table.links.turning) moved.push_back(ways(group.outlines));
-  WaistCell cell(table.links.plane, 0.0, 0.0);
-  Polygon section, grown;
-  for (const Standing& standing : scene.upper_arm) {
-    cell.place(standing.hull);
-    for (const Target& target : work.targets_of(standing.concerns)) {
-      cell.cross_section(target.slab, section);
-      if (section.empty()) continue;
-      cspace::grow(section, target.distance, 0.55, grown);
-      const bool hand = target.kind == Target::Kind::Hand;
-      for (const std::vector<Polygon>& way : hand ? moved[target.ball] : moved.back()) {
-        for (int column = 0; column < columns(); ++column) {
-          if (cspace::come_near(way[static_cast<std::size_t>(column)], grown, 0.0)) {
-            block_column(column);
-          }
-        }
-      }
-    }
-  }
-}
-
-void Slice::Impl::block_column(int column) {
-  const std::uint8_t bit = static_cast<std::uint8_t>(1U << (column % 8));
-  std::uint8_t* byte = whatever_waist.data() + column / 8;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(rows()); ++row) {
-    byte[row * row_bytes()] |= bit;
-  }
-}
-
 void Slice::Impl::block_whatever_waist() {
   const std::size_t block = cspace::kMapBlock;
   whatever_waist.assign(lower_size() + block, 0);
@@ -191,7 +141,13 @@ void Slice::Impl::block_whatever_waist() {
   const Pose X_ER = table.links.plane.X_RE(0.0).inverse();
   for (const Standing& standing : scene.waist) work.add_at(standing, X_ER, 0.0, cell, maps);
   unite_lower(whatever_waist);
-  block_columns();
+  for (const int column : cspace::folded_columns(table, scene, work)) {
+    const std::uint8_t bit = static_cast<std::uint8_t>(1U << (column % 8));
+    std::uint8_t* byte = whatever_waist.data() + column / 8;
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows()); ++row) {
+      byte[row * row_bytes()] |= bit;
+    }
+  }
 }
 
 /// Adds what the collected maps of the lower link and spans of the wrist block.
