@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRounding = 1e-6;  // more than the checker's and all of ours together [m]
-constexpr double kCorner = 0.8;     // Choice: a ball's round corners are 9 % too large at most [rad]
+constexpr double kCorner = 0.8;  // Choice: a ball's round corners are 9 % too large at most [rad]
 constexpr double kSharpCorner = 1.6;
 
 /// Limits of the strips as shares of the ball's radius, the middle one first.
