@@ -1,13 +1,14 @@
 """Random direct cells in clutter from a seed: made, planned, checked, counted.
 
 One part stands among 3 to 10 neighbours and is to go among 3 to 10 others; each end may stand on a
-low fixture and under a wall with a roof. The nearest neighbours leave gaps of 1 to 4 finger widths,
-a finger being as wide as it is thick across the jaws (12 mm): the least gap that lets it in. The
+low fixture and beside a wall with a roof. The nearest neighbours leave gaps of 1 to 4 finger
+widths, a finger being as wide as it is thick across the jaws (12 mm): the least gap for it. The
 part is a box, L, T, U, wedge or cylinder of facets with random sizes, turned about the vertical.
 Whether there is a way is not asked; tests/exhaustive.py answers that.
 
     python tests/clutter_cells.py --count 40 --seed 1
     python tests/clutter_cells.py --count 40 --seed 1 --search 60     # is there a way, if no plan?
+    python tests/clutter_cells.py --count 40 --seed 1 --roofed        # the part stands under a roof
 """
 
 from __future__ import annotations
@@ -184,9 +185,14 @@ def add_neighbour(
 
 
 def add_stall(
-    rng: np.random.Generator, centre: np.ndarray, extent: float, top: float, ground: Ground
+    rng: np.random.Generator,
+    centre: np.ndarray,
+    extent: float,
+    top: float,
+    ground: Ground,
+    roofed: bool,
 ) -> dict | None:
-    """A wall beside the part; most have a roof that reaches over some of the part."""
+    """A wall beside the part; most have a roof that reaches over some of the part, or all."""
     gap, angle = FINGER * _between(rng, 1, 4), _between(rng, -np.pi, np.pi)
     length, height = _between(rng, 0.12, 0.30), _between(rng, 0.10, 0.25)
     along = np.array([np.cos(angle), np.sin(angle)])
@@ -202,9 +208,10 @@ def add_stall(
     reach, area = found
     ground.bodies.append(area)
     shapes = [{"box": [0.01, length, height], "pose": {"xyz": [0, 0, height / 2]}}]
-    if rng.random() < 0.6:
+    if roofed or rng.random() < 0.6:
         under = top + _between(rng, 0.03, 0.15)
-        over = (float(reach) - extent / 2) + _between(rng, 0.2, 1.0) * extent
+        share = _between(rng, 0.6, 1.2) if roofed else _between(rng, 0.2, 1.0)
+        over = (float(reach) - extent / 2) + share * extent
         shapes[0] = {"box": [0.01, length, under], "pose": {"xyz": [0, 0, under / 2]}}
         plate = {"xyz": [0.005 - over / 2, 0, under + 0.005]}
         shapes.append({"box": [over, length, 0.01], "pose": plate})
@@ -241,8 +248,13 @@ def random_ends(
     return ends
 
 
-def clutter_cell(rng: np.random.Generator, folder: Path, name: str) -> dict | None:
-    """A cell as a mapping; None where the neighbours found no room."""
+def clutter_cell(
+    rng: np.random.Generator, folder: Path, name: str, roofed: bool = False
+) -> dict | None:
+    """A cell as a mapping; None where the neighbours found no room.
+
+    With `roofed` the part stands under a roof at its origin: no hand comes straight down.
+    """
     part, ground = random_part(rng, folder, name), Ground()
     bodies: dict[str, dict] = {"fixtures": {"table": TABLE}, "parts": {}}
     ends = random_ends(rng, part, ground, bodies["fixtures"])
@@ -253,8 +265,10 @@ def clutter_cell(rng: np.random.Generator, folder: Path, name: str) -> dict | No
     for i, (xy, yaw, z) in enumerate(ends):
         where = xy - turn(yaw) @ middle[:2]
         places.append(pose(where, z - float(part.lower[2]), yaw, part.stand))
-        if rng.random() < 0.35:
-            stall = add_stall(rng, xy, float(size[:2].max()), z + float(size[2]), ground)
+        under_roof = roofed and i == 0
+        if under_roof or rng.random() < 0.35:
+            extent, top = float(size[:2].max()), z + float(size[2])
+            stall = add_stall(rng, xy, extent, top, ground, under_roof)
             if stall is not None:
                 bodies["fixtures"][f"stall_{i}"] = stall
         wanted, count = int(rng.integers(3, 11)), 0
@@ -276,10 +290,10 @@ def clutter_cell(rng: np.random.Generator, folder: Path, name: str) -> dict | No
     }
 
 
-def write_cell(seed: int, index: int, folder: Path) -> Path | None:
+def write_cell(seed: int, index: int, folder: Path, roofed: bool = False) -> Path | None:
     """The cell of a seed and a number as a file; None if this number gives none."""
-    name = f"clutter_{seed}_{index}"
-    cell = clutter_cell(np.random.default_rng([seed, index]), folder, name)
+    name = f"{'roofed' if roofed else 'clutter'}_{seed}_{index}"
+    cell = clutter_cell(np.random.default_rng([seed, index]), folder, name, roofed)
     if cell is None:
         return None
     path = folder / f"{name}.yaml"
@@ -291,12 +305,12 @@ def write_cell(seed: int, index: int, folder: Path) -> Path | None:
     return path
 
 
-def clutter_cells(seed: int, count: int, folder: Path) -> Iterator[Path]:
+def clutter_cells(seed: int, count: int, folder: Path, roofed: bool = False) -> Iterator[Path]:
     """Yield `count` cell files."""
     made, index = 0, 0
     while made < count and index < 20 * count:
         index += 1
-        path = write_cell(seed, index, folder)
+        path = write_cell(seed, index, folder, roofed)
         if path is not None:
             made += 1
             yield path
@@ -317,6 +331,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--number", type=int, help="only the cell of this number")
+    parser.add_argument("--roofed", action="store_true", help="the part stands under a roof")
     parser.add_argument("--keep", type=Path, help="folder to keep the cells and plans in")
     parser.add_argument(
         "--search", type=float, metavar="S", help="seconds to look for a way where there is no plan"
@@ -328,12 +343,12 @@ def main() -> int:
         folder = args.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         if args.number is None:
-            paths = clutter_cells(args.seed, args.count, folder)
+            paths = clutter_cells(args.seed, args.count, folder, args.roofed)
         else:
-            path = write_cell(args.seed, args.number, folder)
+            path = write_cell(args.seed, args.number, folder, args.roofed)
             paths = iter([] if path is None else [path])
         tally = random_cells.run(paths, not args.no_repeat, args.verbose)
-        random_cells.report("clutter", tally)
+        random_cells.report("clutter under a roof" if args.roofed else "clutter", tally)
         if args.search is not None:
             missed = count_missed(
                 [folder / f"{name}.yaml" for name in tally.unplanned], args.search

@@ -216,18 +216,14 @@ def main() -> None:
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder, parts = Path(scratch), random_cells.own_parts()
-        families = [
-            measure(
-                "open table",
-                random_cells.direct_cells(args.seed, args.count, parts, folder),
-                args.search,
+        sources = {
+            "open table": random_cells.direct_cells(args.seed, args.count, parts, folder),
+            "clutter": clutter_cells.clutter_cells(args.seed, args.count, folder),
+            "clutter under a roof": clutter_cells.clutter_cells(
+                args.seed, args.count, folder, roofed=True
             ),
-            measure(
-                "clutter",
-                clutter_cells.clutter_cells(args.seed, args.count, folder),
-                args.search,
-            ),
-        ]
+        }
+        families = [measure(name, paths, args.search) for name, paths in sources.items()]
     print(table(families, args.search is not None))
 
 
