@@ -74,6 +74,17 @@ std::vector<int> ordered_corners(qhT* qh, facetT* facet,
 
 double volume_of(const TriangleMesh& mesh) { return inspect_surface(mesh).volume; }
 
+/// Is a closed surface one piece without handles, that is, of Euler characteristic 2?
+bool is_like_a_ball(const TriangleMesh& mesh, const SurfaceReport& surface) {
+  if (!surface.manifold || !surface.consistently_oriented || surface.components != 1) return false;
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) used[static_cast<std::size_t>(triangle[k])] = 1;
+  }
+  const std::size_t vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+  return 2 * vertices == mesh.triangles.size() + 4;
+}
+
 }  // namespace
 
 ConvexPolyhedron convex_hull(const std::vector<Eigen::Vector3d>& points) {
@@ -132,6 +143,7 @@ bool is_convex(const TriangleMesh& mesh, double tolerance) {
     return mesh.vertices[static_cast<std::size_t>(triangle[k])];
   };
   double surface_area = 0.0;
+  bool has_needles = false;
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     const Eigen::Vector3d a = corner(triangle, 0);
     const Eigen::Vector3d ab = corner(triangle, 1) - a;
@@ -140,14 +152,19 @@ bool is_convex(const TriangleMesh& mesh, double tolerance) {
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     surface_area += 0.5 * normal.norm();
     // A needle has no reliable plane; the comparison of volumes below covers it.
-    if (normal.norm() <= 1e-6 * longest * longest || normal.norm() <= tolerance * longest) continue;
+    if (normal.norm() <= 1e-6 * longest * longest || normal.norm() <= tolerance * longest) {
+      has_needles = true;
+      continue;
+    }
     const Eigen::Vector3d unit = normal.normalized();
     const double level = unit.dot(a) + tolerance;
     for (const Eigen::Vector3d& vertex : mesh.vertices) {
       if (unit.dot(vertex) > level) return false;
     }
   }
-  // Also refuses bodies that count twice (two copies of one box).
+  // Under all its planes, such a surface goes round its hull once.
+  if (!has_needles && is_like_a_ball(mesh, surface)) return true;
+  // Refuses bodies that count twice (two copies of one box).
   try {
     const double hull_volume = volume_of(triangulate(convex_hull(mesh.vertices)));
     return std::abs(hull_volume - surface.volume) <=

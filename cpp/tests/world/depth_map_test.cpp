@@ -38,17 +38,35 @@ DepthImage image(int rows, int columns, std::vector<double> depths, double focal
   return made;
 }
 
-/// Is a point of the body's frame in one of its solids?
-bool holds(const Body& body, const Vector3d& point, double slack = 1e-9) {
-  return std::any_of(body.shapes.begin(), body.shapes.end(), [&](const Shape& shape) {
-    const TriangleMesh mesh = tessellate(shape);
-    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Eigen::Vector3i& t) {
-      const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-      const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-      return normal.dot(point - corner(0)) <= slack;
+/// The convex solids of a body by the planes of their triangles.
+class Solids {
+ public:
+  explicit Solids(const Body& body) {
+    for (const Shape& shape : body.shapes) {
+      const TriangleMesh mesh = tessellate(shape);
+      std::vector<std::pair<Vector3d, double>> planes;
+      for (const Eigen::Vector3i& t : mesh.triangles) {
+        const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+        const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+        planes.emplace_back(normal, normal.dot(corner(0)));
+      }
+      solids_.push_back(std::move(planes));
+    }
+  }
+  bool hold(const Vector3d& point) const {
+    return std::any_of(solids_.begin(), solids_.end(), [&](const auto& planes) {
+      return std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
+        return plane.first.dot(point) <= plane.second + 1e-9;
+      });
     });
-  });
-}
+  }
+
+ private:
+  std::vector<std::vector<std::pair<Vector3d, double>>> solids_;
+};
+
+/// Is a point of the body's frame in one of its solids?
+bool holds(const Body& body, const Vector3d& point) { return Solids(body).hold(point); }
 
 Vector3d random_point(const Shape& shape, std::mt19937& random) {
   const TriangleMesh mesh = tessellate(shape);
@@ -91,7 +109,7 @@ double distance_from_cone(const DepthImage& map, int v, int u, double depth, con
     return Vector3d(beyond(p.x(), x0, x1), beyond(p.y(), y0, y1), p.z() - z).norm();
   };
   double low = depth, high = depth + map.far;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
     (at(a) < at(b) ? high : low) = at(a) < at(b) ? b : a;
   }
@@ -222,6 +240,7 @@ TEST(DepthMap, SolidsContainWhatWasMeasuredAndStandOutNoMoreThanTold) {
     const MeasuredBody heap = cover_heights("heap", map, options);
     EXPECT_LE(static_cast<int>(seen.body.shapes.size()), options.most_solids + 1);
     EXPECT_LE(static_cast<int>(heap.body.shapes.size()), options.most_solids + 1);
+    const Solids seen_solids(seen.body), heap_solids(heap.body);
     for (int k = 0; k < 400; ++k) {
       const std::size_t i = random() % upper.size();
       if (empty[i] != 0) continue;
@@ -229,17 +248,17 @@ TEST(DepthMap, SolidsContainWhatWasMeasuredAndStandOutNoMoreThanTold) {
                    v = static_cast<int>(i) / columns + share(random) - 0.5;
       const double z = upper[i] + depths.far * share(random);
       EXPECT_TRUE(
-          holds(seen.body, {(u - depths.cx) / depths.fx * z, (v - depths.cy) / depths.fy * z, z}));
-      EXPECT_TRUE(holds(heap.body, {0.007 * u, 0.007 * v, upper[i] * share(random)}));
+          seen_solids.hold({(u - depths.cx) / depths.fx * z, (v - depths.cy) / depths.fy * z, z}));
+      EXPECT_TRUE(heap_solids.hold({0.007 * u, 0.007 * v, upper[i] * share(random)}));
     }
     for (const Shape& shape : seen.body.shapes) {
-      for (int k = 0; k < 20; ++k) {
+      for (int k = 0; k < 8; ++k) {
         EXPECT_LE(distance_from_cones(depths, empty, random_point(shape, random)),
                   seen.excess + 1e-9);
       }
     }
     for (const Shape& shape : heap.body.shapes) {
-      for (int k = 0; k < 20; ++k) {
+      for (int k = 0; k < 8; ++k) {
         EXPECT_LE(distance_from_columns(map, random_point(shape, random)), heap.excess + 1e-9);
       }
     }
@@ -270,11 +289,13 @@ TEST(DepthMap, NothingStandsOutWhereAPartStands) {
   EXPECT_TRUE(found.exact_at_places);
   EXPECT_GT(found.excess, 0.01);
   std::uniform_real_distribution<double> share(-0.5, 0.5);
-  for (int k = 0; k < 500; ++k) {
+  const Solids solids(found.body);
+  for (int k = 0; k < 2000; ++k) {
     const Vector3d p =
         Vector3d(0.1, 0.1, 0.089) +
         Vector3d(0.034 * share(random), 0.034 * share(random), 0.044 * share(random));
-    if (distance_from_columns(map, p) > 1e-6) EXPECT_FALSE(holds(found.body, p)) << p.transpose();
+    if (distance_from_columns(map, p) <= 1e-6) continue;
+    EXPECT_FALSE(solids.hold(p)) << p.transpose();
   }
 }
 
@@ -350,7 +371,7 @@ TEST(DepthMap, PartsAndTheRobotExplainToo) {
   DepthImage seen = image(1, 1, {0.5});
   // Looking down on the part.
   seen.X_WD = Eigen::Translation3d(X_WP.translation() + Vector3d(0, 0, 0.5)) *
-              Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX());
+              Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitX());
   seen.explained = 0.05;
   EXPECT_EQ(explained_pixels(seen, cell)[0], 1);
   const std::vector<Pose> poses = body_poses(*cell.robot, cell.start);
