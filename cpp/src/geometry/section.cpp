@@ -14,13 +14,15 @@
 #include <unordered_map>
 
 #include "handey/errors.hpp"
+#include "handey/geometry/convex_pieces.hpp"
 #include "mesh_edges.hpp"
 
 namespace handey {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 64;  // of round shapes: their outline grows by 0.12 %
+constexpr int kSegments = 64;              // of round shapes: their outline grows by 0.12 %
+constexpr std::size_t kFewTriangles = 64;  // Choice: of so few, telling a convex solid is cheap
 constexpr double kSkinThickness =
     1e-6;  // upright triangles of an open skin have no projected area [m]
 
@@ -247,6 +249,9 @@ Region slab_projection(const Shape& shape, const Pose& X_GB, double lower, doubl
   }
   std::vector<Eigen::Vector3d> vertices = transformed(mesh->mesh->vertices, X_GS);
   if (misses(vertices, slab)) return {};
+  if (mesh->solid && mesh->mesh->triangles.size() <= kFewTriangles && is_convex(*mesh->mesh)) {
+    return convex_projection({std::move(vertices), mesh->mesh->triangles}, slab);
+  }
   MeshProjection projection(std::move(vertices), slab);
   return mesh->solid ? projection.of_solid(mesh->mesh->triangles)
                      : projection.of_skin(mesh->mesh->triangles);
