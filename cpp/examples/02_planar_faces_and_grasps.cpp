@@ -26,8 +26,8 @@ int main(int argc, char** argv) {
   const FeaturePairs features = find_feature_pairs(bracket, cell.robot->gripper);
   std::printf("%zu planar faces, %zu pairs that the jaws can take\n", features.faces.size(),
               features.pairs.size());
-  for (const FacePair& pair : features.pairs) {
-    std::printf("  faces %d and %d: %.1f mm apart, overlap %.0f mm2\n", pair.face_a, pair.face_b,
+  for (const FeaturePair& pair : features.pairs) {
+    std::printf("  %s: %.1f mm apart, overlap %.0f mm2\n", to_string(pair).c_str(),
                 1e3 * pair.width, 1e6 * pair.area);
   }
   if (!features.rejected.empty()) {
@@ -38,14 +38,14 @@ int main(int argc, char** argv) {
   const Ranking ranking = rank_grasps(cell, 0, X_WP_goal);
   std::printf("ranked by the area that stays unobstructed at both ends:\n");
   for (const RankedPair& ranked : ranking.ranked) {
-    std::printf("  faces %d and %d: %3.0f %% (at the origin alone %3.0f %%)", ranked.pair.face_a,
-                ranked.pair.face_b, 100.0 * ranked.share, 100.0 * ranked.share_at_origin);
+    std::printf("  %s: %3.0f %% (at the origin alone %3.0f %%)", to_string(ranked.pair).c_str(),
+                100.0 * ranked.share, 100.0 * ranked.share_at_origin);
     for (const std::string& name : ranked.obstructing) std::printf(", %s", name.c_str());
     std::printf("\n");
   }
   for (const RankedPair& dropped : ranking.obstructed) {
-    std::printf("  faces %d and %d: dropped, %3.0f %% at the origin, %3.0f %% in all\n",
-                dropped.pair.face_a, dropped.pair.face_b, 100.0 * dropped.share_at_origin,
+    std::printf("  %s: dropped, %3.0f %% at the origin, %3.0f %% in all\n",
+                to_string(dropped.pair).c_str(), 100.0 * dropped.share_at_origin,
                 100.0 * dropped.share);
   }
   bool in_order = !ranking.ranked.empty();

@@ -23,14 +23,14 @@ def main(models: Path) -> bool:
     features = _core.find_feature_pairs(bracket, cell.robot.gripper)
     print(f"{len(features.faces)} planar faces, {len(features.pairs)} pairs that the jaws can take")
     for pair in features.pairs:
-        print(f"  faces {pair.face_a} and {pair.face_b}: {1e3 * pair.width:.1f} mm apart, ", end="")
+        print(f"  {pair}: {1e3 * pair.width:.1f} mm apart, ", end="")
         print(f"overlap {1e6 * pair.area:.0f} mm2")
 
     ranking = _core.rank_grasps(cell, 0, at(0.45, -0.25, 0.0))
     print("ranked by the area that stays unobstructed at both ends:")
     for kind, pairs in (("", ranking.ranked), (" dropped,", ranking.obstructed)):
         for ranked in pairs:
-            print(f"  faces {ranked.pair.face_a} and {ranked.pair.face_b}:{kind}", end=" ")
+            print(f"  {ranked.pair}:{kind}", end=" ")
             print(
                 f"{ranked.share:4.0%} (at the origin alone {ranked.share_at_origin:4.0%})", end=" "
             )

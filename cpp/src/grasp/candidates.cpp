@@ -89,8 +89,17 @@ ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
                    pad_contact_area(pair.unobstructed, {target.x(), target.y(), theta}, gripper));
     }
   }
-  demand.required = std::max(std::min(options.least_contact_share * pad_area, 0.8 * demand.best),
-                             std::min(0.15 * pad_area, 30e-6));
+  const bool is_line = pair.pair.kind == PairKind::FaceEdge || pair.pair.kind == PairKind::ParallelEdges;
+  if (pair.pair.kind == PairKind::FaceFace) {
+    demand.required =
+        std::max(std::min(options.least_contact_share * pad_area, 0.8 * demand.best),
+                 std::min(0.15 * pad_area, 30e-6));
+  } else if (is_line) {
+    const double full = gripper.pad_length * pair.pair.strip;
+    demand.required = std::min(options.least_contact_share * full, 0.8 * demand.best);
+  } else {
+    demand.required = 0.99 * pair.pair.area;  // a point is inside the pad or not
+  }
   return demand;
 }
 
@@ -114,12 +123,13 @@ double planar_merit(const RankedPair& pair, const Gripper& gripper, const Planar
 
 CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
                               const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
-                              const LegalityOptions& options) {
+                              const Hold& hold, const LegalityOptions& options) {
   const Gripper& gripper = robot.gripper;
   const FingerExtent finger = finger_extent(robot);
   CandidateList list;
   const std::vector<double> directions = approach_directions(pair, options.directions);
   int group = 0;
+  double least_excess = 0.0;
   for (const Eigen::Vector2d& target : pair.targets) {
     for (const double theta : directions) {
       const bool along_edge = is_along_edge(pair, theta);
@@ -128,12 +138,21 @@ CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
         Candidate candidate;
         candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
                           theta};
-        candidate.contact_area = pad_contact_area(pair.unobstructed, candidate.pose, gripper);
-        const bool has_contact = candidate.contact_area >= demand.required;
+        const PadContact contact = pad_contact(pair, candidate.pose, gripper);
+        candidate.contact_area = contact.area;
+        const bool has_contact = demand.is_met(contact);
         // Drawn back until the contact is gone: not one more way that failed.
         if (!has_contact && share > 0.0) break;
         if (!has_contact) {
           ++list.too_little_contact;
+          continue;
+        }
+        const double excess = hold.excess(pair, contact);
+        if (excess > 0.0) {
+          if (list.would_turn++ == 0 || excess < least_excess) {
+            least_excess = excess;
+            list.turn_reason = hold.reason(pair, contact);
+          }
           continue;
         }
         candidate.along_edge = along_edge;

@@ -1,9 +1,11 @@
 // Candidate hand poses of one pair, cheapest knowledge first: contact, lever, direction.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "handey/grasp/legality.hpp"
+#include "pad_contact.hpp"
 
 namespace handey::grasp {
 
@@ -11,6 +13,9 @@ namespace handey::grasp {
 struct ContactDemand {
   double best = 0.0;      ///< what a pad can have on this pair [m2]
   double required = 0.0;  ///< [m2]
+  bool is_met(const PadContact& contact) const {
+    return contact.both_sides && contact.area >= required;
+  }
 };
 ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
                              const LegalityOptions& options);
@@ -26,13 +31,15 @@ struct Candidate {
 struct CandidateList {
   std::vector<Candidate> candidates;  ///< most promising first
   int too_little_contact = 0;  ///< target and direction where the pad at the target has too little
+  int would_turn = 0;          ///< where there is contact, but the part's weight would turn it
+  std::string turn_reason;     ///< of the one that misses least
 };
 
 /// @param down_in_G  mean over both ends of the world's downward direction in G: the approach from
 /// above
 CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
                               const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
-                              const LegalityOptions& options);
+                              const Hold& hold, const LegalityOptions& options);
 
 /// The part of the merit that needs no arm, 0..0.8.
 double planar_merit(const RankedPair& pair, const Gripper& gripper, const PlanarPose& pose,

@@ -1,11 +1,13 @@
 // Pairs of planar faces that a parallel jaw can hold: every two faces are looked at, the normals
-// first.
+// first. Pairs with edges and vertices are found elsewhere.
 #include "handey/grasp/features.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "beyond_faces.hpp"
+#include "pair_rules.hpp"
 #include "part_faces.hpp"
 #include "plane_map.hpp"
 #include "ranges.hpp"
@@ -22,11 +24,24 @@ Pose hand_in_plane(const PlanarPose& pose, bool flipped) {
   return X_GH;
 }
 
+std::string to_string(const Feature& feature) {
+  const char* kind = feature.kind == FeatureKind::Face   ? "face "
+                     : feature.kind == FeatureKind::Edge ? "edge "
+                                                         : "vertex ";
+  return kind + std::to_string(feature.index);
+}
+
+std::string to_string(const Feature& a, const Feature& b) {
+  if (a.kind != b.kind) return to_string(a) + " / " + to_string(b);
+  const char* kind = a.kind == FeatureKind::Face ? "faces " : "edges ";
+  return kind + std::to_string(a.index) + "/" + std::to_string(b.index);
+}
+
 namespace {
 
 using grasp::face_frame;
 using grasp::map_region;
-using grasp::millimetres;
+using grasp::one_decimal;
 
 void require_valid_input(const Body& part, const Gripper& gripper, const FeatureOptions& options) {
   if (part.shapes.empty()) {
@@ -41,6 +56,11 @@ void require_valid_input(const Body& part, const Gripper& gripper, const Feature
   grasp::require_in_range(options.least_face_area, 0.0, 1.0, "features.least_face_area");
   grasp::require_in_range(options.least_overlap, 0.0, 1.0, "features.least_overlap");
   grasp::require_in_range(options.jaw_clearance, 0.0, 1.0, "features.jaw_clearance");
+  grasp::require_in_range(options.least_edge, 1e-5, 1.0, "features.least_edge");
+  grasp::require_in_range(options.sharp_edge, 0.0, 3.0, "features.sharp_edge");
+  grasp::require_in_range(options.friction_use, 0.0, 1.0, "features.friction_use");
+  grasp::require_in_range(options.most_edges, 0, 10000, "features.most_edges");
+  grasp::require_in_range(options.most_beyond_faces, 0, 10000, "features.most_beyond_faces");
 }
 
 // The longest edge of a region, as a direction.
@@ -59,33 +79,14 @@ Eigen::Vector2d longest_edge(const Region& region) {
   return longest;
 }
 
-// Middle of the region if that is in it, else of its widest place.
-Eigen::Vector2d middle_of(const Region& region) {
-  double twice_area = 0.0;
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  for (const Polygon& loop : region.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Eigen::Vector2d& a = loop[i];
-      const Eigen::Vector2d& b = loop[(i + 1) % loop.size()];
-      const double cross = a.x() * b.y() - a.y() * b.x();
-      twice_area += cross;
-      moment += cross * (a + b) / 3.0;
-    }
-  }
-  const Eigen::Vector2d centroid = moment / twice_area;
-  return contains(region, centroid) ? centroid : largest_inscribed_circle(region).centre;
-}
-
 class PairFinder {
  public:
   PairFinder(const Body& part, const Gripper& gripper, const FeatureOptions& options)
       : part_(part),
         gripper_(gripper),
         options_(options),
-        all_exposed_(grasp::has_no_covered_faces(part)) {
-    result_.faces = grasp::part_faces(part, options.least_face_area);
-    exposed_.resize(result_.faces.size());
-  }
+        result_(with_faces(part, options)),
+        exposed_(part, result_.faces) {}
 
   FeaturePairs find() {
     const int count = static_cast<int>(result_.faces.size());
@@ -93,11 +94,20 @@ class PairFinder {
       for (int b = a + 1; b < count; ++b) consider(a, b);
     }
     std::stable_sort(result_.pairs.begin(), result_.pairs.end(),
-                     [](const FacePair& a, const FacePair& b) { return a.area > b.area + 1e-12; });
+                     [](const auto& a, const auto& b) { return a.area > b.area + 1e-12; });
+    if (options_.beyond_faces) {
+      grasp::add_pairs_beyond_faces(part_, gripper_, exposed_, options_, result_);
+    }
     return std::move(result_);
   }
 
  private:
+  static FeaturePairs with_faces(const Body& part, const FeatureOptions& options) {
+    FeaturePairs features;
+    features.faces = grasp::part_faces(part, options.least_face_area);
+    return features;
+  }
+
   void consider(int index_a, int index_b) {
     const PlanarFace& a = face(index_a);
     const PlanarFace& b = face(index_b);
@@ -113,9 +123,9 @@ class PairFinder {
     const double overlap_area = area(overlap);
     if (overlap_area < 1e-9) return;
 
-    FacePair pair;
-    pair.face_a = index_a;
-    pair.face_b = index_b;
+    FeaturePair pair;
+    pair.a = {FeatureKind::Face, index_a};
+    pair.b = {FeatureKind::Face, index_b};
     pair.area = overlap_area;
     place_plane(pair, X_PC, overlap);
     if (const std::optional<RejectedPair> rejected = reject(pair)) {
@@ -130,30 +140,30 @@ class PairFinder {
     const Region region_a = map_region(face(a).region, X_CP * face_frame(face(a)));
     const Region region_b = map_region(face(b).region, X_CP * face_frame(face(b)));
     const Region overlap = intersect(region_a, region_b);
-    if (all_exposed_ || overlap.empty()) return overlap;
-    const Region exposed_a = map_region(exposed(a), X_CP * face_frame(face(a)));
-    const Region exposed_b = map_region(exposed(b), X_CP * face_frame(face(b)));
+    if (exposed_.none_covered() || overlap.empty()) return overlap;
+    const Region exposed_a = map_region(exposed_(a), X_CP * face_frame(face(a)));
+    const Region exposed_b = map_region(exposed_(b), X_CP * face_frame(face(b)));
     return intersect(exposed_a, exposed_b);
   }
 
   // G: origin in the overlap, midway between the faces, x along the longest edge.
-  void place_plane(FacePair& pair, const Pose& X_PC, const Region& overlap) const {
-    const Eigen::Vector2d middle = middle_of(overlap);
+  void place_plane(FeaturePair& pair, const Pose& X_PC, const Region& overlap) const {
+    const Eigen::Vector2d middle = grasp::middle_of(overlap);
     const Eigen::Vector2d edge = longest_edge(overlap);
     Pose X_CG = Pose::Identity();
     X_CG.linear() =
         grasp::rotation_with_z(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(edge.x(), edge.y(), 0.0));
     X_CG.translation() = Eigen::Vector3d(middle.x(), middle.y(), 0.0);
     pair.X_PG = X_PC * X_CG;
-    const double height_a = height_over(face(pair.face_a), pair.X_PG);
-    const double height_b = height_over(face(pair.face_b), pair.X_PG);
+    const double height_a = height_over(face(pair.a.index), pair.X_PG);
+    const double height_b = height_over(face(pair.b.index), pair.X_PG);
     pair.width = height_a - height_b;
     pair.X_PG.translation() += 0.5 * (height_a + height_b) * pair.X_PG.linear().col(2);
     pair.overlap = map_region(overlap, X_CG.inverse());
     // A plane with normal n has the slope -n_xy / n_z over x and y.
     const Eigen::Matrix3d R_GP = pair.X_PG.linear().transpose();
-    const Eigen::Vector3d n_a = R_GP * face(pair.face_a).normal;
-    const Eigen::Vector3d n_b = R_GP * face(pair.face_b).normal;
+    const Eigen::Vector3d n_a = R_GP * face(pair.a.index).normal;
+    const Eigen::Vector3d n_b = R_GP * face(pair.b.index).normal;
     pair.taper = -n_a.head<2>() / n_a.z() + n_b.head<2>() / n_b.z();
   }
 
@@ -163,46 +173,21 @@ class PairFinder {
     return (face.origin - X_PG.translation()).dot(face.normal) / z.dot(face.normal);
   }
 
-  std::optional<RejectedPair> reject(const FacePair& pair) const {
-    RejectedPair rejected{pair.face_a, pair.face_b, pair.width, Rejection::TooWide, ""};
-    const double needed = pair.width + 2.0 * options_.jaw_clearance;
-    if (needed > gripper_.max_opening) {
-      rejected.reason = millimetres(pair.width) + " mm wide and " +
-                        millimetres(options_.jaw_clearance) +
-                        " mm clearance each side, jaws open " + millimetres(gripper_.max_opening) +
-                        " mm: " + millimetres(needed - gripper_.max_opening) + " mm short";
-      return rejected;
-    }
-    if (pair.width < gripper_.min_opening) {
-      rejected.kind = Rejection::TooThin;
-      rejected.reason = millimetres(pair.width) + " mm wide, jaws close to " +
-                        millimetres(gripper_.min_opening) +
-                        " mm: " + millimetres(gripper_.min_opening - pair.width) + " mm too thin";
-      return rejected;
-    }
-    if (pair.area < options_.least_overlap) {
-      rejected.kind = Rejection::LittleOverlap;
-      rejected.reason = "faces overlap by " + millimetres(pair.area * 1e3) + " mm2, at least " +
-                        millimetres(options_.least_overlap * 1e3) + " mm2 are needed";
-      return rejected;
-    }
-    return std::nullopt;
+  std::optional<RejectedPair> reject(const FeaturePair& pair) const {
+    std::optional<RejectedPair> rejected = grasp::reject_width(pair, gripper_, options_);
+    if (rejected || pair.area >= options_.least_overlap) return rejected;
+    return RejectedPair{pair.a, pair.b, pair.width, Rejection::LittleOverlap,
+                        "faces overlap by " + one_decimal(pair.area * 1e6) + " mm2, at least " +
+                            one_decimal(options_.least_overlap * 1e6) + " mm2 are needed"};
   }
 
   const PlanarFace& face(int index) const { return result_.faces[static_cast<std::size_t>(index)]; }
 
-  const Region& exposed(int index) {
-    std::optional<Region>& region = exposed_[static_cast<std::size_t>(index)];
-    if (!region) region = grasp::exposed_region(part_, face(index));
-    return *region;
-  }
-
   const Body& part_;
   const Gripper& gripper_;
   const FeatureOptions& options_;
-  const bool all_exposed_;
-  std::vector<std::optional<Region>> exposed_;
   FeaturePairs result_;
+  grasp::ExposedFaces exposed_;
 };
 
 }  // namespace

@@ -28,6 +28,8 @@ void require_valid_input(const GraspScene& scene, const RankedPair& pair,
   grasp::require_in_range(options.open_clearance, 0.0, 0.5, "legality.open_clearance");
   grasp::require_in_range(options.clearance, 0.0, 0.1, "legality.clearance");
   grasp::require_in_range(options.least_contact_share, 0.0, 1.0, "legality.least_contact_share");
+  grasp::require_in_range(options.grip_force, 0.0, 1e6, "legality.grip_force");
+  grasp::require_in_range(options.grip_ratio, 0.0, 1e6, "legality.grip_ratio");
   grasp::require_in_range(options.most_poses, 1, 100000, "legality.most_poses");
 }
 
@@ -63,8 +65,37 @@ void count(LegalGrasps& result, grasp::PoseVerdict verdict) {
   }
 }
 
-// "180.0 mm2" for 180e-6 m2.
-std::string square_millimetres(double area) { return grasp::millimetres(area * 1e3) + " mm2"; }
+const Body& part_of(const GraspScene& scene) {
+  return scene.cell.parts[static_cast<std::size_t>(scene.part)];
+}
+
+// Of a contact with an edge, the length: "12.0 mm".
+std::string amount(const RankedPair& pair, double area) {
+  switch (pair.pair.kind) {
+    case PairKind::FaceEdge:
+    case PairKind::ParallelEdges:
+      return grasp::millimetres(area / pair.pair.strip) + " mm";
+    default:
+      return grasp::one_decimal(area * 1e6) + " mm2";
+  }
+}
+
+std::string too_little_contact(const RankedPair& pair, const grasp::ContactDemand& demand) {
+  const std::string needed = amount(pair, demand.required), most = amount(pair, demand.best);
+  switch (pair.pair.kind) {
+    case PairKind::FaceFace:
+      return "a pad has too little contact on the free faces (" + needed + " are needed, " + most +
+             " is the most at any target)";
+    case PairKind::FaceEdge:
+    case PairKind::ParallelEdges:
+      return "a pad has too little of a free edge (" + needed + " are needed, " + most +
+             " is the most at any target)";
+    case PairKind::FaceVertex:
+    case PairKind::CrossedEdges:
+      break;
+  }
+  return "a point of contact is not 1 mm inside the pad or next to an obstacle";
+}
 
 }  // namespace
 
@@ -74,18 +105,21 @@ LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolve
   const Gripper& gripper = scene.cell.robot->gripper;
   const Eigen::Vector2d down = down_in_plane(scene, pair);
   const grasp::ContactDemand demand = grasp::contact_demand(pair, gripper, options);
+  const grasp::Hold hold(part_of(scene), options);
   const grasp::CandidateList list =
-      grasp::make_candidates(pair, *scene.cell.robot, down, demand, options);
+      grasp::make_candidates(pair, *scene.cell.robot, down, demand, hold, options);
 
   LegalGrasps result;
   grasp::Tally tally;
-  // Contact does not depend on the hand's half-turn.
-  result.tried = result.too_little_contact = list.too_little_contact;
+  // Contact and hold do not depend on the hand's half-turn.
+  result.too_little_contact = list.too_little_contact;
+  result.would_turn = list.would_turn;
+  result.tried = list.too_little_contact + list.would_turn;
   for (int i = 0; i < list.too_little_contact; ++i) {
-    tally.add(grasp::Stage::Contact, "contact",
-              "a pad has too little contact on the free faces (" +
-                  square_millimetres(demand.required) + " are needed, " +
-                  square_millimetres(demand.best) + " is the most at any target)");
+    tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
+  }
+  for (int i = 0; i < list.would_turn; ++i) {
+    tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
   }
   grasp::PoseTester tester(scene, solver, options);
   std::set<std::pair<int, bool>> found;
@@ -129,13 +163,17 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
   GraspPose grasp_pose;
   grasp_pose.in_plane = pose;
   grasp_pose.flipped = flipped;
-  grasp_pose.contact_area = pad_contact_area(pair.unobstructed, pose, gripper);
-  if (grasp_pose.contact_area < demand.required) {
+  const grasp::PadContact contact = grasp::pad_contact(pair, pose, gripper);
+  const grasp::Hold hold(part_of(scene), options);
+  grasp_pose.contact_area = contact.area;
+  if (!demand.is_met(contact)) {
     result.too_little_contact = 1;
     tally.add(grasp::Stage::Contact, "contact",
-              "a pad has " + square_millimetres(grasp_pose.contact_area) +
-                  " of contact on the free faces, " + square_millimetres(demand.required) +
-                  " are needed");
+              "a pad has " + amount(pair, contact.area) + " of contact on the free features, " +
+                  amount(pair, demand.required) + " are needed");
+  } else if (hold.excess(pair, contact) > 0.0) {
+    result.would_turn = 1;
+    tally.add(grasp::Stage::Hold, "turn", hold.reason(pair, contact));
   } else {
     const grasp::PoseVerdict verdict =
         grasp::PoseTester(scene, solver, options).test(pair.pair, grasp_pose, tally);

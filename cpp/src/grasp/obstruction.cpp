@@ -18,6 +18,9 @@ namespace {
 // The part's own surface counts from this height over a face [m]. Choice: above the tolerance
 // within which triangles are one face (1e-5), below what a pad would notice.
 constexpr double kOwnLower = 5e-5;
+// Over the plane of a pad on an edge or a vertex [m]. Choice: less than what may give way (5e-4),
+// more than an edge may rise that is not quite parallel to the other.
+constexpr double kOwnLowerBesideEdge = 4e-4;
 
 Eigen::AlignedBox2d box_of(const Region& region) {
   Eigen::AlignedBox2d box;
@@ -59,14 +62,6 @@ FingerExtent finger_extent(const Robot& robot) {
   return extent;
 }
 
-Pose side_frame(const FacePair& pair, const PlanarFace& face, bool side_a) {
-  Pose X_GS = Pose::Identity();
-  X_GS.linear() =
-      rotation_with_z(pair.X_PG.linear().transpose() * face.normal, Eigen::Vector3d::UnitX());
-  X_GS.translation().z() = (side_a ? 0.5 : -0.5) * pair.width;
-  return X_GS;
-}
-
 Obstruction::Obstruction(const Body& part, const std::vector<PlanarFace>& faces, double layer,
                          double clearance)
     : part_(part),
@@ -75,39 +70,66 @@ Obstruction::Obstruction(const Body& part, const std::vector<PlanarFace>& faces,
       clearance_(clearance),
       part_is_convex_(is_convex_body(part)) {}
 
+Pose Obstruction::side_frame(const FeaturePair& pair, bool side_a) const {
+  const Feature& feature = side_a ? pair.a : pair.b;
+  Eigen::Vector3d outward(0.0, 0.0, side_a ? 1.0 : -1.0);
+  if (feature.kind == FeatureKind::Face) {
+    outward = pair.X_PG.linear().transpose() *
+              faces_[static_cast<std::size_t>(feature.index)].normal;
+  }
+  Pose X_GS = Pose::Identity();
+  X_GS.linear() = rotation_with_z(outward, Eigen::Vector3d::UnitX());
+  X_GS.translation().z() = (side_a ? 0.5 : -0.5) * pair.width;
+  return X_GS;
+}
+
+Region Obstruction::part_between(const Pose& X_SP, double lower) const {
+  std::vector<Region> standing_out;
+  for (const Shape& shape : part_.shapes) {
+    const Eigen::AlignedBox3d box = bounding_box(shape, X_SP);
+    if (box.max().z() <= lower || box.min().z() >= layer_) continue;
+    Region region = slab_projection(shape, X_SP, lower, layer_);
+    if (!region.empty()) standing_out.push_back(std::move(region));
+  }
+  return standing_out.empty() ? Region{} : unite(standing_out);
+}
+
 Region Obstruction::own_on_face(int face) {
   const auto known = own_.find(face);
   if (known != own_.end()) return known->second;
   const Pose X_FP = face_frame(faces_[static_cast<std::size_t>(face)]).inverse();
-  std::vector<Region> standing_out;
-  for (const Shape& shape : part_.shapes) {
-    const Eigen::AlignedBox3d box = bounding_box(shape, X_FP);
-    if (box.max().z() <= kOwnLower || box.min().z() >= layer_) continue;
-    Region region = slab_projection(shape, X_FP, kOwnLower, layer_);
-    if (!region.empty()) standing_out.push_back(std::move(region));
-  }
-  return own_[face] = unite(standing_out);
+  return own_[face] = part_between(X_FP, kOwnLower);
 }
 
-Region Obstruction::own(const FacePair& pair) {
+Region Obstruction::own_beside(const FeaturePair& pair, bool side_a) const {
+  const Pose X_GS = side_frame(pair, side_a);
+  return map_region(part_between((pair.X_PG * X_GS).inverse(), kOwnLowerBesideEdge), X_GS);
+}
+
+Region Obstruction::own(const FeaturePair& pair) {
   if (part_is_convex_) return {};
   const Pose X_GP = pair.X_PG.inverse();
   std::vector<Region> both;
-  for (const int face : {pair.face_a, pair.face_b}) {
-    const Region on_face = own_on_face(face);
-    if (on_face.empty()) continue;
-    both.push_back(map_region(on_face, X_GP * face_frame(faces_[static_cast<std::size_t>(face)])));
+  for (const bool side_a : {true, false}) {
+    const Feature& feature = side_a ? pair.a : pair.b;
+    Region beside;
+    if (feature.kind == FeatureKind::Face) {
+      const PlanarFace& face = faces_[static_cast<std::size_t>(feature.index)];
+      beside = map_region(own_on_face(feature.index), X_GP * face_frame(face));
+    } else {
+      beside = own_beside(pair, side_a);
+    }
+    if (!beside.empty()) both.push_back(std::move(beside));
   }
   return both.empty() ? Region{} : unite(both);
 }
 
-Region Obstruction::of_body(const FacePair& pair, const Body& body, const Pose& X_PB,
+Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB,
                             double reach) const {
   const Eigen::AlignedBox2d around = box_of(pair.overlap);
   std::vector<Region> found;
   for (const bool side_a : {true, false}) {
-    const int face = side_a ? pair.face_a : pair.face_b;
-    const Pose X_GS = side_frame(pair, faces_[static_cast<std::size_t>(face)], side_a);
+    const Pose X_GS = side_frame(pair, side_a);
     const Pose X_SB = (pair.X_PG * X_GS).inverse() * X_PB;
     // Seen from behind, y of S is -y of G.
     const double y_sense = side_a ? 1.0 : -1.0;

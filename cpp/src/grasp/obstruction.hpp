@@ -20,10 +20,6 @@ struct FingerExtent {
 };
 FingerExtent finger_extent(const Robot& robot);
 
-/// Frame of one side of a pair in the grasp plane's frame: z = outward normal of the face, x = x of
-/// G, origin where the axis of G pierces the face.
-Pose side_frame(const FacePair& pair, const PlanarFace& face, bool side_a);
-
 /// The part of each body that blocks the fingers beside one pair, and the part's own protrusions.
 class Obstruction {
  public:
@@ -31,13 +27,18 @@ class Obstruction {
               double clearance);
 
   /// What of the part stands out beside the faces of the pair, in (x, y) of G; not grown.
-  Region own(const FacePair& pair);
+  Region own(const FeaturePair& pair);
   /// What of the body blocks the layers of the pair, grown by the clearance, in (x, y) of G.
   /// @param reach  bodies farther from the overlap than this are not looked at [m]
-  Region of_body(const FacePair& pair, const Body& body, const Pose& X_PB, double reach) const;
+  Region of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB, double reach) const;
 
  private:
+  /// Frame of one side of a pair in G: z outward, of a face its normal; x = x of G, origin where
+  /// the axis of G pierces the plane of the pad.
+  Pose side_frame(const FeaturePair& pair, bool side_a) const;
   Region own_on_face(int face);
+  Region own_beside(const FeaturePair& pair, bool side_a) const;
+  Region part_between(const Pose& X_SP, double lower) const;
 
   const Body& part_;
   const std::vector<PlanarFace>& faces_;

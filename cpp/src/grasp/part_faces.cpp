@@ -47,6 +47,22 @@ void add_faces(std::vector<PlanarFace>& faces, const Shape& shape) {
   }
 }
 
+bool has_no_covered_faces(const Body& part) {
+  if (part.shapes.size() != 1) return false;
+  const MeshShape* mesh = std::get_if<MeshShape>(&part.shapes.front().geometry);
+  return mesh == nullptr || connected_components(*mesh->mesh).size() == 1;
+}
+
+Region exposed_region(const Body& part, const PlanarFace& face) {
+  const Pose X_FP = face_frame(face).inverse();
+  std::vector<Region> covered;
+  for (const Shape& shape : part.shapes) {
+    Region cover = slab_projection(shape, X_FP, kSlabLower, kSlabUpper);
+    if (!cover.empty()) covered.push_back(std::move(cover));
+  }
+  return covered.empty() ? face.region : subtract(face.region, unite(covered));
+}
+
 }  // namespace
 
 std::vector<PlanarFace> part_faces(const Body& part, double least_area) {
@@ -64,20 +80,17 @@ std::vector<PlanarFace> part_faces(const Body& part, double least_area) {
   return faces;
 }
 
-bool has_no_covered_faces(const Body& part) {
-  if (part.shapes.size() != 1) return false;
-  const MeshShape* mesh = std::get_if<MeshShape>(&part.shapes.front().geometry);
-  return mesh == nullptr || connected_components(*mesh->mesh).size() == 1;
+ExposedFaces::ExposedFaces(const Body& part, const std::vector<PlanarFace>& faces)
+    : part_(part), faces_(faces), none_covered_(has_no_covered_faces(part)) {
+  exposed_.resize(faces.size());
 }
 
-Region exposed_region(const Body& part, const PlanarFace& face) {
-  const Pose X_FP = face_frame(face).inverse();
-  std::vector<Region> covered;
-  for (const Shape& shape : part.shapes) {
-    Region cover = slab_projection(shape, X_FP, kSlabLower, kSlabUpper);
-    if (!cover.empty()) covered.push_back(std::move(cover));
-  }
-  return covered.empty() ? face.region : subtract(face.region, unite(covered));
+const Region& ExposedFaces::operator()(int face) {
+  const PlanarFace& of = faces_[static_cast<std::size_t>(face)];
+  if (none_covered_) return of.region;
+  std::optional<Region>& region = exposed_[static_cast<std::size_t>(face)];
+  if (!region) region = exposed_region(part_, of);
+  return *region;
 }
 
 }  // namespace handey::grasp

@@ -2,6 +2,7 @@
 // is exposed.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "handey/geometry/polyhedron.hpp"
@@ -12,10 +13,21 @@ namespace handey::grasp {
 /// Largest area first.
 std::vector<PlanarFace> part_faces(const Body& part, double least_area);
 
-/// True if no shape of the part can cover a face of it: one shape in one piece.
-bool has_no_covered_faces(const Body& part);
+/// What of each face is not covered by a shape of the part lying against it, in its own (u, v).
+/// Found when first asked for. Keeps references to part and faces.
+class ExposedFaces {
+ public:
+  ExposedFaces(const Body& part, const std::vector<PlanarFace>& faces);
 
-/// What of the face is not covered by a shape of the part lying against it, in its own (u, v).
-Region exposed_region(const Body& part, const PlanarFace& face);
+  /// True if no shape of the part can cover a face of it: one shape in one piece.
+  bool none_covered() const { return none_covered_; }
+  const Region& operator()(int face);
+
+ private:
+  const Body& part_;
+  const std::vector<PlanarFace>& faces_;
+  const bool none_covered_;
+  std::vector<std::optional<Region>> exposed_;
+};
 
 }  // namespace handey::grasp

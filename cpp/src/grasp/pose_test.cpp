@@ -170,7 +170,7 @@ std::vector<Eigen::VectorXd> PoseTester::soonest_first(
   return ordered;
 }
 
-PoseVerdict PoseTester::test(const FacePair& pair, GraspPose& pose, Tally& tally) {
+PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& tally) {
   pose.X_PH = pair.X_PG * hand_in_plane(pose.in_plane, pose.flipped);
   pose.width = pair.width_at({pose.in_plane.x, pose.in_plane.y});
   const std::vector<InverseSolution> at_origin = inverse(origin_, pose.X_PH, tally);

@@ -13,7 +13,7 @@
 namespace handey::grasp {
 
 /// The tests of a candidate in their order.
-enum class Stage { Contact, ReachOrigin, ReachDestination, ClearOrigin, ClearDestination };
+enum class Stage { Contact, Hold, ReachOrigin, ReachDestination, ClearOrigin, ClearDestination };
 
 /// Counts why candidates fell.
 class Tally {
@@ -50,7 +50,7 @@ class PoseTester {
 
   /// Fills X_PH, width, opening, q_pick, q_place of `pose` (in_plane and flipped are given); merit
   /// gets the joint margin's share, 0..0.2.
-  PoseVerdict test(const FacePair& pair, GraspPose& pose, Tally& tally);
+  PoseVerdict test(const FeaturePair& pair, GraspPose& pose, Tally& tally);
 
  private:
   struct End {

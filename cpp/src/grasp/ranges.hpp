@@ -21,13 +21,16 @@ inline void require_in_range(double value, double least, double most, const std:
   }
 }
 
-/// "12.3" for 0.0123 m.
-inline std::string millimetres(double metres) {
+/// "12.3"
+inline std::string one_decimal(double value) {
   std::ostringstream text;
   text.setf(std::ios::fixed);
   text.precision(1);
-  text << metres * 1e3;
+  text << value;
   return text.str();
 }
+
+/// "12.3" for 0.0123 m.
+inline std::string millimetres(double metres) { return one_decimal(metres * 1e3); }
 
 }  // namespace handey::grasp

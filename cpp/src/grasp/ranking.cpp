@@ -5,10 +5,14 @@
 #include <algorithm>
 
 #include "obstruction.hpp"
+#include "pair_rules.hpp"
 #include "ranges.hpp"
 
 namespace handey {
 namespace {
+
+using grasp::kind_worth;
+using grasp::kLeastContactLength;
 
 // Less than this of the overlap taken is not called obstructing [m2].
 constexpr double kNoArea = 1e-9;
@@ -42,7 +46,7 @@ class Ranker {
         nearby_(nearby_bodies(cell, part, X_WP_goal)),
         p_centre_(centre_of_mass(part_)) {}
 
-  RankedPair rank(const FacePair& pair) {
+  RankedPair rank(const FeaturePair& pair) {
     RankedPair ranked;
     ranked.pair = pair;
     ranked.centre_of_mass = (pair.X_PG.inverse() * p_centre_).head<2>();
@@ -56,16 +60,31 @@ class Ranker {
       ranked.unobstructed = subtract(pair.overlap, blocked);
     }
     ranked.blocked = std::move(blocked);
+    ranked.contact_a = subtract(pair.contact_a, ranked.blocked);
+    ranked.contact_b = subtract(pair.contact_b, ranked.blocked);
     const double free_area = area(ranked.unobstructed);
     ranked.share = free_area / pair.area;
-    ranked.score = ranked.share * std::min(1.0, free_area / pad_area());
+    ranked.score =
+        kind_worth(pair.kind) * ranked.share * std::min(1.0, free_area / full_area(pair));
     return ranked;
   }
 
-  // Enough for a contact: the least area that a pad must have on a face.
+  // Enough for a contact: the least area that a pad must have on a face, the least length of an
+  // edge; a vertex must be free all round.
   bool is_usable(const RankedPair& ranked) const {
-    return ranked.share >= options_.least_share &&
-           area(ranked.unobstructed) >= std::min(0.1 * pad_area(), 25e-6);
+    if (ranked.share < options_.least_share) return false;
+    const double free_area = area(ranked.unobstructed);
+    switch (ranked.pair.kind) {
+      case PairKind::FaceFace:
+        return free_area >= std::min(0.1 * pad_area(), 25e-6);
+      case PairKind::FaceEdge:
+      case PairKind::ParallelEdges:
+        return free_area >= kLeastContactLength * ranked.pair.strip;
+      case PairKind::FaceVertex:
+      case PairKind::CrossedEdges:
+        return ranked.share > 0.99;
+    }
+    return false;
   }
 
   void choose_targets(RankedPair& ranked) const {
@@ -92,6 +111,14 @@ class Ranker {
     ranked.obstructing.push_back(name);
   }
 
+  // The most that a pad can have of the overlap.
+  double full_area(const FeaturePair& pair) const {
+    if (pair.kind == PairKind::FaceFace) return pad_area();
+    const bool is_line =
+        pair.kind == PairKind::FaceEdge || pair.kind == PairKind::ParallelEdges;
+    return pair.strip * (is_line ? gripper_.pad_length : pair.strip);
+  }
+
   double pad_area() const { return gripper_.pad_width * gripper_.pad_length; }
 
   const Cell& cell_;
@@ -103,13 +130,24 @@ class Ranker {
   Eigen::Vector3d p_centre_;  // of mass, in the part
 };
 
+template <typename Pair>
+bool has_faces_only(const Pair& pair) {
+  return pair.a.kind == FeatureKind::Face && pair.b.kind == FeatureKind::Face;
+}
+
+bool is_asked_for(bool faces_only, const RankingOptions& options) {
+  return options.pairs == PairChoice::All ||
+         faces_only == (options.pairs == PairChoice::TwoFaces);
+}
+
 // Best first; equal to 1e-9 is equal, so that rounding does not decide.
 bool comes_before(const RankedPair& a, const RankedPair& b) {
   if (std::abs(a.score - b.score) > 1e-9) return a.score > b.score;
   const double area_a = a.share * a.pair.area, area_b = b.share * b.pair.area;
   if (std::abs(area_a - area_b) > 1e-12) return area_a > area_b;
-  if (a.pair.face_a != b.pair.face_a) return a.pair.face_a < b.pair.face_a;
-  return a.pair.face_b < b.pair.face_b;
+  if (a.pair.kind != b.pair.kind) return a.pair.kind < b.pair.kind;
+  if (a.pair.a.index != b.pair.a.index) return a.pair.a.index < b.pair.a.index;
+  return a.pair.b.index < b.pair.b.index;
 }
 
 }  // namespace
@@ -119,9 +157,15 @@ Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal, const Fea
   require_valid_input(cell, part, X_WP_goal, options);
   Ranking ranking;
   ranking.faces = static_cast<int>(features.faces.size());
-  ranking.rejected = features.rejected;
+  ranking.edges = static_cast<int>(features.edges.size());
+  ranking.vertices = static_cast<int>(features.vertices.size());
+  ranking.beyond_faces = features.beyond_faces;
+  for (const RejectedPair& pair : features.rejected) {
+    if (is_asked_for(has_faces_only(pair), options)) ranking.rejected.push_back(pair);
+  }
   Ranker ranker(cell, part, X_WP_goal, features, options);
-  for (const FacePair& pair : features.pairs) {
+  for (const FeaturePair& pair : features.pairs) {
+    if (!is_asked_for(has_faces_only(pair), options)) continue;
     RankedPair ranked = ranker.rank(pair);
     if (ranker.is_usable(ranked)) ranker.choose_targets(ranked);
     // An area too narrow for any target holds no pad either.
@@ -135,8 +179,10 @@ Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal, const Fea
 Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal,
                     const RankingOptions& options) {
   require_valid_input(cell, part, X_WP_goal, options);
+  FeatureOptions looked_for = options.features;
+  looked_for.beyond_faces = looked_for.beyond_faces && options.pairs != PairChoice::TwoFaces;
   const FeaturePairs features = find_feature_pairs(cell.parts[static_cast<std::size_t>(part)],
-                                                   cell.robot->gripper, options.features);
+                                                   cell.robot->gripper, looked_for);
   return rank_grasps(cell, part, X_WP_goal, features, options);
 }
 

@@ -30,6 +30,24 @@ void clip(Polygon& loop, int axis, double sign, double bound, Polygon& scratch) 
   loop.swap(scratch);
 }
 
+// Of plane loops, about the origin.
+struct Moments {
+  double area = 0.0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  double second = 0.0;  // polar
+
+  void add(const Polygon& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Eigen::Vector2d& a = loop[i];
+      const Eigen::Vector2d& b = loop[(i + 1) % loop.size()];
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      area += cross / 2.0;
+      first += cross / 6.0 * (a + b);
+      second += cross / 12.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    }
+  }
+};
+
 struct Candidate {
   Eigen::Vector2d point;
   double score;
@@ -87,11 +105,11 @@ std::vector<Eigen::Vector2d> target_pool(const Region& unobstructed, const Eigen
 
 }  // namespace
 
-double pad_contact_area(const Region& region, const PlanarPose& pose, const Gripper& gripper) {
+PadPatch pad_patch(const Region& region, const PlanarPose& pose, const Gripper& gripper) {
   const double c = std::cos(pose.theta), s = std::sin(pose.theta);
   const double half_length = 0.5 * gripper.pad_length, half_width = 0.5 * gripper.pad_width;
   Polygon clipped, scratch;
-  double total = 0.0;
+  Moments moments;
   for (const Polygon& loop : region.loops) {
     clipped.clear();
     Eigen::Vector2d lower(1e9, 1e9), upper(-1e9, -1e9);
@@ -109,9 +127,21 @@ double pad_contact_area(const Region& region, const PlanarPose& pose, const Grip
     clip(clipped, 0, -1.0, half_length, scratch);
     clip(clipped, 1, 1.0, half_width, scratch);
     clip(clipped, 1, -1.0, half_width, scratch);
-    if (clipped.size() >= 3) total += signed_area(clipped);
+    if (clipped.size() >= 3) moments.add(clipped);
   }
-  return std::max(0.0, total);
+  PadPatch patch;
+  if (moments.area <= 0.0) return patch;
+  patch.area = moments.area;
+  const Eigen::Vector2d centre = moments.first / moments.area;
+  patch.centre = Eigen::Vector2d(pose.x + c * centre.x() - s * centre.y(),
+                                 pose.y + s * centre.x() + c * centre.y());
+  patch.gyration =
+      std::sqrt(std::max(0.0, moments.second / moments.area - centre.squaredNorm()));
+  return patch;
+}
+
+double pad_contact_area(const Region& region, const PlanarPose& pose, const Gripper& gripper) {
+  return pad_patch(region, pose, gripper).area;
 }
 
 Eigen::Vector2d nearest_point(const Region& region, const Eigen::Vector2d& point) {

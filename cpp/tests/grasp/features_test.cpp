@@ -24,7 +24,7 @@ Gripper jaw() { return testing::jaw_robot()->gripper; }
 
 std::vector<double> widths(const FeaturePairs& features) {
   std::vector<double> result;
-  for (const FacePair& pair : features.pairs) result.push_back(pair.width);
+  for (const FeaturePair& pair : features.pairs) result.push_back(pair.width);
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -61,7 +61,7 @@ TEST(FeaturePairs, OfABoxAreItsThreePairsOfOppositeFaces) {
 TEST(FeaturePairs, GraspPlaneIsMidwayWithXAlongTheLongestEdge) {
   Body body = box_body("b", {0.04, 0.06, 0.03});
   body.shapes[0].X_BS = pose_from_xyz_rpy({0.3, -0.2, 0.5}, {0.3, -0.7, 1.1});
-  for (const FacePair& pair : find_feature_pairs(body, jaw()).pairs) {
+  for (const FeaturePair& pair : find_feature_pairs(body, jaw()).pairs) {
     const Eigen::Vector3d in_box = body.shapes[0].X_BS.inverse() * pair.X_PG.translation();
     EXPECT_LT(in_box.norm(), 1e-7);
     EXPECT_NEAR(pair.X_PG.linear().determinant(), 1.0, 1e-9);
@@ -113,7 +113,7 @@ TEST(FeaturePairs, WhatAnotherShapeCoversIsTakenOff) {
   const FeaturePairs features = find_feature_pairs(body, jaw());
   const auto plate =
       std::find_if(features.pairs.begin(), features.pairs.end(),
-                   [](const FacePair& pair) { return std::abs(pair.width - 0.01) < 1e-7; });
+                   [](const FeaturePair& pair) { return std::abs(pair.width - 0.01) < 1e-7; });
   ASSERT_NE(plate, features.pairs.end());
   EXPECT_NEAR(plate->area, 0.06 * 0.06 - 0.02 * 0.02, 1e-8);
   const Eigen::Vector3d middle = plate->X_PG.inverse() * Eigen::Vector3d(0.0, 0.0, 0.005);
@@ -162,7 +162,7 @@ TEST(FeaturePairs, NearlyParallelFacesHaveATaper) {
   body.name = "wedge";
   body.shapes.push_back({MeshShape{mesh, true}, Pose::Identity()});
   const FeaturePairs features = find_feature_pairs(body, jaw());
-  const FacePair& pair = features.pairs.front();
+  const FeaturePair& pair = features.pairs.front();
   ASSERT_NEAR(pair.width, 0.02, 1e-4);
   for (const double x : {-0.02, 0.0, 0.02}) {
     // Where the line through this point of G along z meets bottom and top, in the part.
@@ -214,7 +214,7 @@ TEST(FeaturePairs, BoundMaterialInsideAndFreeSpaceOutside) {
       body.shapes.push_back({Box{{size(random), size(random), size(random)}},
                              translation(offset(random), offset(random), offset(random))});
     }
-    for (const FacePair& pair : find_feature_pairs(body, jaw()).pairs) {
+    for (const FeaturePair& pair : find_feature_pairs(body, jaw()).pairs) {
       const InscribedCircle circle = largest_inscribed_circle(pair.overlap);
       for (const Eigen::Vector2d& at : {circle.centre, Eigen::Vector2d(0.0, 0.0)}) {
         ASSERT_TRUE(contains(pair.overlap, at));
@@ -285,9 +285,9 @@ struct PieceCount {
 
 PieceCount count_piece_pairs(const FeaturePairs& features) {
   PieceCount count;
-  for (const FacePair& pair : features.pairs) {
-    const PlanarFace& a = features.faces[static_cast<std::size_t>(pair.face_a)];
-    const PlanarFace& b = features.faces[static_cast<std::size_t>(pair.face_b)];
+  for (const FeaturePair& pair : features.pairs) {
+    const PlanarFace& a = features.faces[static_cast<std::size_t>(pair.a.index)];
+    const PlanarFace& b = features.faces[static_cast<std::size_t>(pair.b.index)];
     for (const Region& piece_a : pieces_in_plane(a, pair.X_PG)) {
       for (const Region& piece_b : pieces_in_plane(b, pair.X_PG)) {
         const double common = area(intersect(intersect(piece_a, piece_b), pair.overlap));

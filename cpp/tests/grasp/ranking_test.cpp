@@ -69,7 +69,7 @@ TEST(Ranking, IsTheSameWithObstaclesAtTheOriginInsteadOfTheDestination) {
   ASSERT_EQ(ranking.ranked.size(), same.ranked.size());
   for (std::size_t i = 0; i < same.ranked.size(); ++i) {
     EXPECT_NEAR(ranking.ranked[i].share, same.ranked[i].share, 1e-6);
-    EXPECT_EQ(ranking.ranked[i].pair.face_a, same.ranked[i].pair.face_a);
+    EXPECT_EQ(ranking.ranked[i].pair.a.index, same.ranked[i].pair.a.index);
   }
 }
 

@@ -1,5 +1,5 @@
-// Grasp poses at which hand and arm are legal at both ends: enough of the pads on the faces,
-// inverse kinematics within limits, and no collision with the hand open and with the hand closed,
+// Grasp poses at which hand and arm are legal at both ends: enough of the pads on the features, a
+// hold that the part's weight does not turn (soft fingers), inverse kinematics within limits, and no collision with the hand open and with the hand closed,
 // at the origin and at the destination (T moves the hand with the part). The part stands there as
 // an obstacle for palm, arm and open fingers; closed fingers may touch it only by the pads.
 // Complete only for the candidates: targets x directions x the hand's two half-turns x pads drawn
@@ -34,6 +34,11 @@ struct LegalityOptions {
   double least_contact_share =
       0.3;  ///< of the pad on the unobstructed area; where no pad can have that, 80 % of the
             ///< best; never under 15 % of the pad or 30 mm2
+  double grip_force = 70.0;  ///< of the jaws, for parts whose mass or density is known [N]. Choice:
+                             ///< an electric jaw of the size of a hand
+  /// Friction of both pads over the part's weight, for parts whose mass is not known. Choice: a
+  /// part of 0.3 kg at friction 0.4 in such jaws.
+  double grip_ratio = 20.0;
   int most_poses = 16;  ///< returned per pair; then the search stops
 };
 
@@ -44,7 +49,7 @@ struct GraspPose {
   Pose X_PH = Pose::Identity();  ///< grasp frame in the part
   double width = 0.0;            ///< opening when closed on the part [m]
   double opening = 0.0;          ///< opening while approaching [m]
-  double contact_area = 0.0;     ///< of a pad on the unobstructed area [m2]
+  double contact_area = 0.0;     ///< of a pad on the unobstructed area (FeaturePair::overlap) [m2]
   /// Larger is better, 0..1. Choice: 0.35 contact (of what a pad can have) + 0.25 closeness of the
   /// pad to the centre of mass, 1 / (1 + distance / pad length) + 0.20 joint margin (0.35 rad from
   /// a limit or 0.3 from a singularity is full, the worse end counts) + 0.10 approach from above
@@ -58,7 +63,7 @@ struct GraspPose {
 struct LegalGrasps {
   std::vector<GraspPose> poses;  ///< best merit first
   // How many candidates fell, and where:
-  int tried = 0, too_little_contact = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
+  int tried = 0, too_little_contact = 0, would_turn = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
       collides_at_origin = 0, collides_at_destination = 0;
   std::string worst_reason;  ///< of those that got farthest, the one met most often: "hand hits
                              ///< table (destination): 14 of 48"; empty if none fell

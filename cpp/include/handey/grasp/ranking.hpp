@@ -1,4 +1,4 @@
-// Which face pair to try first: the one whose common area stays unobstructed when what is near the
+// Which feature pair to try first: the one whose common area stays unobstructed when what is near the
 // part at its origin and, moved by T^-1, near it at its destination is projected on it. And where
 // in that area to put the fingertips. Obstacles count that reach into the layer outside a face
 // which a finger fills, the part's own protrusions too. Errs on the large side: what is called
@@ -16,6 +16,8 @@
 
 namespace handey {
 
+enum class PairChoice { All, TwoFaces, BeyondFaces };
+
 struct RankingOptions {
   FeatureOptions features;
   double finger_clearance = 0.002;  ///< obstacles this near the finger's layer obstruct it [m]
@@ -24,15 +26,23 @@ struct RankingOptions {
   bool use_destination = true;  ///< false: look at the origin only (what the article warns of)
   double least_share = 0.02;    ///< pairs with less unobstructed are dropped
   int most_targets = 5;         ///< fingertip targets per pair
+  /// Which pairs are ranked: those with edges and vertices cost more to look at and are worth less,
+  /// so that it pays to ask for them only when two faces do not serve.
+  PairChoice pairs = PairChoice::All;
 };
 
 struct RankedPair {
-  FacePair pair;
+  FeaturePair pair;
   Region unobstructed;  ///< of the overlap, in (x, y) of G [m]
   Region blocked;       ///< what obstructs the fingers' layers on and around the overlap, grown [m]
   double share = 0.0;   ///< unobstructed / overlap area
   double share_at_origin = 0.0;  ///< looking at the origin's obstacles only
-  double score = 0.0;            ///< share * min(1, unobstructed area / area of a pad)
+  /// share * min(1, unobstructed area / area of a pad) for two faces. With edges: share * min(1,
+  /// unobstructed length / pad length), at a point: share; that times 0.10 (face and edge), 0.05
+  /// (parallel edges), 0.03 (face and vertex), 0.02 (crossed edges). Choice: two faces are tried
+  /// first unless next to nothing of them is free.
+  double score = 0.0;
+  Region contact_a, contact_b;   ///< FeaturePair's, unobstructed; empty for two faces
   std::vector<std::string>
       obstructing;  ///< names: "block", "rack (destination)", "the part itself"
   std::vector<Eigen::Vector2d> targets;                      ///< fingertip targets, best first
@@ -43,7 +53,8 @@ struct Ranking {
   std::vector<RankedPair> ranked;      ///< best first
   std::vector<RankedPair> obstructed;  ///< dropped for want of unobstructed area
   std::vector<RejectedPair> rejected;  ///< too wide, ...
-  int faces = 0;
+  int faces = 0, edges = 0, vertices = 0;  ///< that the part has (edges and vertices: if asked for)
+  int beyond_faces = 0;                    ///< pairs with edges or vertices, ranked or not
 };
 
 /// Order: by `score`. Choice: the article's percentage, times how much of a pad the unobstructed

@@ -10,6 +10,14 @@
 
 namespace handey {
 
+/// What of one pad rests on a region, the pad's centre at (x, y), its length along theta. Exact.
+struct PadPatch {
+  double area = 0.0;                                 ///< [m2]
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of the patch, in G [m]
+  double gyration = 0.0;                             ///< radius of gyration about its centre [m]
+};
+PadPatch pad_patch(const Region& region, const PlanarPose& pose, const Gripper& gripper);
+
 /// Area of one pad on `region`, the pad's centre at (x, y), its length along theta [m2]. Exact.
 double pad_contact_area(const Region& region, const PlanarPose& pose, const Gripper& gripper);
 
