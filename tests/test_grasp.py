@@ -68,7 +68,7 @@ def test_the_destination_decides_the_ranking(cell):
 def test_features_found_before_give_the_same_ranking(cell):
     features = _core.find_feature_pairs(cell.parts[0], cell.robot.gripper)
     # Largest overlap first: 60 x 50, 44 x 60, 44 x 50 mm2.
-    assert [pair.width for pair in features.pairs] == pytest.approx([0.044, 0.05, 0.06])
+    assert [pair.width for pair in features.pairs[:3]] == pytest.approx([0.044, 0.05, 0.06])
     again = _core.rank_grasps(cell, 0, GOAL, features=features)
     ranking = _core.rank_grasps(cell, 0, GOAL)
     assert [pair.share for pair in again.ranked] == [pair.share for pair in ranking.ranked]
@@ -81,7 +81,8 @@ def test_bodies_at_the_destination_are_pulled_back(cell):
 
 
 def test_targets_lie_in_the_unobstructed_area(cell):
-    for pair in _core.rank_grasps(cell, 0, GOAL).ranked:
+    options = _core.RankingOptions(pairs=_core.PairChoice.TwoFaces)
+    for pair in _core.rank_grasps(cell, 0, GOAL, options).ranked:
         assert 2 <= len(pair.targets) <= 5
         assert all(pair.unobstructed.contains(target) for target in pair.targets)
         assert pair.share == pytest.approx(pair.unobstructed.area / pair.pair.area)

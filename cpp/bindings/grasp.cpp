@@ -115,21 +115,19 @@ void bind_feature_pair(py::module_& m) {
 void bind_feature_options(py::module_& m) {
   const FeatureOptions defaults;
   py::class_<FeatureOptions>(m, "FeatureOptions", "Options of find_feature_pairs.")
-      .def(py::init([](double angle, double least_face_area, double least_overlap,
-                       double jaw_clearance, bool beyond_faces, double least_edge,
-                       double sharp_edge, double friction_use, int most_edges,
-                       int most_beyond_faces) {
-             return FeatureOptions{angle,         least_face_area, least_overlap, jaw_clearance,
-                                   beyond_faces,  least_edge,      sharp_edge,    friction_use,
-                                   most_edges,    most_beyond_faces};
-           }),
-           py::kw_only(), "angle"_a = defaults.angle,
-           "least_face_area"_a = defaults.least_face_area,
-           "least_overlap"_a = defaults.least_overlap, "jaw_clearance"_a = defaults.jaw_clearance,
-           "beyond_faces"_a = defaults.beyond_faces, "least_edge"_a = defaults.least_edge,
-           "sharp_edge"_a = defaults.sharp_edge, "friction_use"_a = defaults.friction_use,
-           "most_edges"_a = defaults.most_edges,
-           "most_beyond_faces"_a = defaults.most_beyond_faces)
+      .def(
+          py::init([](double angle, double least_face_area, double least_overlap,
+                      double jaw_clearance, bool beyond_faces, double least_edge, double sharp_edge,
+                      double friction_use, int most_edges, int most_beyond_faces) {
+            return FeatureOptions{angle,        least_face_area,  least_overlap, jaw_clearance,
+                                  beyond_faces, least_edge,       sharp_edge,    friction_use,
+                                  most_edges,   most_beyond_faces};
+          }),
+          py::kw_only(), "angle"_a = defaults.angle, "least_face_area"_a = defaults.least_face_area,
+          "least_overlap"_a = defaults.least_overlap, "jaw_clearance"_a = defaults.jaw_clearance,
+          "beyond_faces"_a = defaults.beyond_faces, "least_edge"_a = defaults.least_edge,
+          "sharp_edge"_a = defaults.sharp_edge, "friction_use"_a = defaults.friction_use,
+          "most_edges"_a = defaults.most_edges, "most_beyond_faces"_a = defaults.most_beyond_faces)
       .def_readwrite("angle", &FeatureOptions::angle, "Most the normals leave antiparallel [rad].")
       .def_readwrite("least_face_area", &FeatureOptions::least_face_area, "[m2]")
       .def_readwrite("least_overlap", &FeatureOptions::least_overlap, "Of two faces [m2].")
@@ -137,8 +135,7 @@ void bind_feature_options(py::module_& m) {
                      "The jaws open at least this much wider than the part, each side [m].")
       .def_readwrite("beyond_faces", &FeatureOptions::beyond_faces,
                      "Look for pairs with edges and vertices too.")
-      .def_readwrite("least_edge", &FeatureOptions::least_edge,
-                     "Shorter edges are left out [m].")
+      .def_readwrite("least_edge", &FeatureOptions::least_edge, "Shorter edges are left out [m].")
       .def_readwrite("sharp_edge", &FeatureOptions::sharp_edge,
                      "Edges between faces at a smaller angle are left out [rad].")
       .def_readwrite("friction_use", &FeatureOptions::friction_use,

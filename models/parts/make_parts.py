@@ -91,6 +91,23 @@ def prism(outline: Sequence[Sequence[float]], height: float) -> np.ndarray:
     return hull_solid(points, faces)
 
 
+def toothed(teeth: int, root: float, tip: float, height: float) -> np.ndarray:
+    """A wheel with straight-flanked teeth, pulled up from z = 0 to `height`."""
+    outline = []
+    for tooth in range(teeth):
+        for share, radius in ((0.0, root), (0.3, root), (0.42, tip), (0.58, tip), (0.7, root)):
+            angle = 2 * np.pi * (tooth + share) / teeth
+            outline.append([radius * np.cos(angle), radius * np.sin(angle)])
+    n = len(outline)
+    triangles = []
+    for i in range(n):
+        a, b = outline[i], outline[(i + 1) % n]
+        low, high = [[*p, 0.0] for p in (a, b)], [[*p, height] for p in (a, b)]
+        triangles += [[low[0], low[1], high[1]], [low[0], high[1], high[0]]]
+        triangles += [[[0, 0, 0.0], low[1], low[0]], [[0, 0, height], high[0], high[1]]]
+    return np.array(triangles, dtype=float)
+
+
 def make_parts() -> dict[str, np.ndarray]:
     """All parts by name."""
     parts = {}
@@ -131,6 +148,11 @@ def make_parts() -> dict[str, np.ndarray]:
     parts["big_cube"] = grid_solid([-60, 60], [-60, 60], [0, 120], lambda x, y, z: True)
     angles = np.radians(np.arange(30, 390, 60))
     parts["hex_peg"] = prism([[23 * np.cos(a), 23 * np.sin(a)] for a in angles], 90)
+    # No two sides of a pentagon are parallel: each is opposite to an edge.
+    angles = np.radians(np.arange(90, 450, 72))
+    parts["pentagon"] = prism([[18 * np.cos(a), 18 * np.sin(a)] for a in angles], 40)
+    # An odd number of teeth whose tips are too narrow for faces: opposite to a tip is a gap.
+    parts["gear"] = toothed(17, 19, 23, 12)
     # A block whose two long sides carry engraved bars, 0.5 mm deep.
     bars = [-22, -18, -10, -6, 2, 6, 14, 18]
     parts["engraved_block"] = grid_solid(

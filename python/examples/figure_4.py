@@ -93,9 +93,8 @@ def fingers(cell: _core.Cell, X_WP: np.ndarray, aim: _core.GraspPose) -> list[Ar
 
 def same_pair(ranking: _core.Ranking, pair: _core.RankedPair) -> _core.RankedPair:
     """A pair of faces in another ranking, be it dropped there."""
-    faces = (pair.pair.face_a, pair.pair.face_b)
     found = [*ranking.ranked, *ranking.obstructed]
-    return next(p for p in found if (p.pair.face_a, p.pair.face_b) == faces)
+    return next(p for p in found if str(p.pair) == str(pair.pair))
 
 
 def faces_panel(

@@ -36,8 +36,10 @@ __all__: list[str] = [
     "DepthMapOptions",
     "EdgeResult",
     "EdgeStatus",
-    "FacePair",
+    "Feature",
+    "FeatureKind",
     "FeatureOptions",
+    "FeaturePair",
     "FeaturePairs",
     "FingerJoint",
     "FreeSpaceOptions",
@@ -70,6 +72,10 @@ __all__: list[str] = [
     "NearbyBody",
     "OutlinePiece",
     "Overlap",
+    "PairChoice",
+    "PairKind",
+    "PartEdge",
+    "PartVertex",
     "PlanarArm",
     "PlanarFace",
     "PlanarPose",
@@ -1471,18 +1477,159 @@ class PlanarPose:
         [m]
         """
 
-class FacePair:
+class FeatureKind:
     """
-    Two opposite faces that the jaws can hold.
+    What a pad rests on.
+
+    Members:
+
+      Face
+
+      Edge
+
+      Vertex
     """
+
+    Edge: typing.ClassVar[FeatureKind]
+    Face: typing.ClassVar[FeatureKind]
+    Vertex: typing.ClassVar[FeatureKind]
+    __members__: typing.ClassVar[dict[str, FeatureKind]]
+    @typing.overload
+    def __eq__(self, other: FeatureKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FeatureKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Feature:
+    """
+    One of a part's features.
+    """
+    def __str__(self) -> str: ...
+    @property
+    def index(self) -> int:
+        """
+        Into FeaturePairs.faces, edges or vertices.
+        """
+    @property
+    def kind(self) -> FeatureKind: ...
+
+class PairKind:
+    """
+    How jaws can hold two features, best first.
+
+    Members:
+
+      FaceFace
+
+      FaceEdge
+
+      ParallelEdges
+
+      FaceVertex
+
+      CrossedEdges
+    """
+
+    CrossedEdges: typing.ClassVar[PairKind]
+    FaceEdge: typing.ClassVar[PairKind]
+    FaceFace: typing.ClassVar[PairKind]
+    FaceVertex: typing.ClassVar[PairKind]
+    ParallelEdges: typing.ClassVar[PairKind]
+    __members__: typing.ClassVar[dict[str, PairKind]]
+    @typing.overload
+    def __eq__(self, other: PairKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: PairKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class PartEdge:
+    """
+    A convex edge, straight.
+    """
+    @property
+    def ends(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        In the part, (2, 3) [m].
+        """
+    @property
+    def face_a(self) -> bool:
+        """
+        The first of them can be held itself.
+        """
+    @property
+    def face_b(self) -> bool:
+        """
+        The second of them can be held itself.
+        """
+    @property
+    def normals(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        Outward, of the faces that meet in it, (2, 3).
+        """
+
+class PartVertex:
+    """
+    A convex corner.
+    """
+    @property
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        In the part, (3,) [m].
+        """
+    @property
+    def rays(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        Unit vectors along the edges that leave it, (n, 3).
+        """
+
+class FeaturePair:
+    """
+    Two features that the jaws can hold.
+    """
+    def __str__(self) -> str: ...
     def width_at(self, point: typing.Any) -> float:
         """
-        Distance between the faces at a point (2,) of G [m].
+        Distance between the features at a point (2,) of G [m].
         """
     @property
     def X_PG(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
         """
-        Grasp plane in the part, (4, 4): midway between the faces, z the closing axis.
+        Grasp plane in the part, (4, 4): midway between the features, z the closing axis.
+        """
+    @property
+    def a(self) -> Feature:
+        """
+        Feature; a face comes before an edge or a vertex.
         """
     @property
     def area(self) -> float:
@@ -1490,19 +1637,34 @@ class FacePair:
         Of the overlap [m2].
         """
     @property
-    def face_a(self) -> int:
+    def b(self) -> Feature:
         """
-        Index into FeaturePairs.faces.
+        Feature.
         """
     @property
-    def face_b(self) -> int:
+    def contact_a(self) -> Region:
         """
-        Index into FeaturePairs.faces.
+        What the pad on a touches, in (x, y) of G; empty for two faces.
+        """
+    @property
+    def contact_b(self) -> Region:
+        """
+        What the pad on b touches, in (x, y) of G; empty for two faces.
+        """
+    @property
+    def kind(self) -> PairKind:
+        """
+        PairKind.
         """
     @property
     def overlap(self) -> Region:
         """
-        Common area, in (x, y) of G [m].
+        Common area of two faces, else the strip or square that stands for an edge or a vertex, in (x, y) of G [m].
+        """
+    @property
+    def strip(self) -> float:
+        """
+        Width of the strip; 0 for two faces [m].
         """
     @property
     def taper(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
@@ -1512,7 +1674,7 @@ class FacePair:
     @property
     def width(self) -> float:
         """
-        Distance between the faces at the origin of G [m].
+        Distance between the features at the origin of G [m].
         """
 
 class Rejection:
@@ -1557,10 +1719,17 @@ class RejectedPair:
     """
     A pair that the jaws cannot take, and why.
     """
+    def __str__(self) -> str: ...
     @property
-    def face_a(self) -> int: ...
+    def a(self) -> Feature:
+        """
+        Feature.
+        """
     @property
-    def face_b(self) -> int: ...
+    def b(self) -> Feature:
+        """
+        Feature.
+        """
     @property
     def kind(self) -> Rejection: ...
     @property
@@ -1585,6 +1754,12 @@ class FeatureOptions:
         least_face_area: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05,
         least_overlap: typing.SupportsFloat | typing.SupportsIndex = 2.5e-05,
         jaw_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        beyond_faces: bool = True,
+        least_edge: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        sharp_edge: typing.SupportsFloat | typing.SupportsIndex = 0.035,
+        friction_use: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        most_edges: typing.SupportsInt | typing.SupportsIndex = 512,
+        most_beyond_faces: typing.SupportsInt | typing.SupportsIndex = 48,
     ) -> None: ...
     @property
     def angle(self) -> float:
@@ -1594,12 +1769,33 @@ class FeatureOptions:
     @angle.setter
     def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def beyond_faces(self) -> bool:
+        """
+        Look for pairs with edges and vertices too.
+        """
+    @beyond_faces.setter
+    def beyond_faces(self, arg0: bool) -> None: ...
+    @property
+    def friction_use(self) -> float:
+        """
+        Share of the friction angle that the line between the contacts of two edges may lean from the closing axis.
+        """
+    @friction_use.setter
+    def friction_use(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def jaw_clearance(self) -> float:
         """
         The jaws open at least this much wider than the part, each side [m].
         """
     @jaw_clearance.setter
     def jaw_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def least_edge(self) -> float:
+        """
+        Shorter edges are left out [m].
+        """
+    @least_edge.setter
+    def least_edge(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def least_face_area(self) -> float:
         """
@@ -1610,29 +1806,65 @@ class FeatureOptions:
     @property
     def least_overlap(self) -> float:
         """
-        [m2]
+        Of two faces [m2].
         """
     @least_overlap.setter
     def least_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most_beyond_faces(self) -> int:
+        """
+        Pairs with edges or vertices that are kept, the best.
+        """
+    @most_beyond_faces.setter
+    def most_beyond_faces(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def most_edges(self) -> int:
+        """
+        The longest are paired with each other.
+        """
+    @most_edges.setter
+    def most_edges(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def sharp_edge(self) -> float:
+        """
+        Edges between faces at a smaller angle are left out [rad].
+        """
+    @sharp_edge.setter
+    def sharp_edge(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class FeaturePairs:
     """
-    A part's faces and the pairs of them.
+    A part's features and the pairs of them.
     """
+    @property
+    def beyond_faces(self) -> int:
+        """
+        Pairs with edges or vertices that the jaws can span, kept or not.
+        """
+    @property
+    def edges(self) -> list[PartEdge]:
+        """
+        PartEdge, longest first.
+        """
     @property
     def faces(self) -> list[PlanarFace]:
         """
         PlanarFace of all shapes, in the part frame.
         """
     @property
-    def pairs(self) -> list[FacePair]:
+    def pairs(self) -> list[FeaturePair]:
         """
-        FacePair, largest overlap first.
+        FeaturePair: two faces, largest overlap first; then the others.
         """
     @property
     def rejected(self) -> list[RejectedPair]:
         """
         RejectedPair.
+        """
+    @property
+    def vertices(self) -> list[PartVertex]:
+        """
+        PartVertex.
         """
 
 class NearbyBody:
@@ -1657,6 +1889,44 @@ class NearbyBody:
     @property
     def name(self) -> str: ...
 
+class PairChoice:
+    """
+    Which feature pairs are ranked.
+
+    Members:
+
+      All
+
+      TwoFaces
+
+      BeyondFaces
+    """
+
+    All: typing.ClassVar[PairChoice]
+    BeyondFaces: typing.ClassVar[PairChoice]
+    TwoFaces: typing.ClassVar[PairChoice]
+    __members__: typing.ClassVar[dict[str, PairChoice]]
+    @typing.overload
+    def __eq__(self, other: PairChoice) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: PairChoice) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class RankingOptions:
     """
     Options of rank_grasps.
@@ -1672,6 +1942,7 @@ class RankingOptions:
         use_destination: bool = True,
         least_share: typing.SupportsFloat | typing.SupportsIndex = 0.02,
         most_targets: typing.SupportsInt | typing.SupportsIndex = 5,
+        pairs: PairChoice = ...,
     ) -> None: ...
     @property
     def finger_clearance(self) -> float:
@@ -1699,6 +1970,13 @@ class RankingOptions:
     @open_clearance.setter
     def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def pairs(self) -> PairChoice:
+        """
+        PairChoice: which pairs are ranked.
+        """
+    @pairs.setter
+    def pairs(self, arg0: PairChoice) -> None: ...
+    @property
     def use_destination(self) -> bool:
         """
         False: look at the origin only.
@@ -1708,7 +1986,7 @@ class RankingOptions:
 
 class RankedPair:
     """
-    A face pair and what of it stays unobstructed.
+    A feature pair and what of it stays unobstructed.
     """
     @property
     def blocked(self) -> Region:
@@ -1721,19 +1999,29 @@ class RankedPair:
         Of the part, in (x, y) of G, (2,) [m].
         """
     @property
+    def contact_a(self) -> Region:
+        """
+        FeaturePair's, unobstructed.
+        """
+    @property
+    def contact_b(self) -> Region:
+        """
+        FeaturePair's, unobstructed.
+        """
+    @property
     def obstructing(self) -> list[str]:
         """
         Names of what obstructs.
         """
     @property
-    def pair(self) -> FacePair:
+    def pair(self) -> FeaturePair:
         """
-        FacePair.
+        FeaturePair.
         """
     @property
     def score(self) -> float:
         """
-        share * min(1, unobstructed area / area of a pad).
+        share * min(1, unobstructed area / area of a pad) for two faces; others a tenth of that or less.
         """
     @property
     def share(self) -> float:
@@ -1755,8 +2043,18 @@ class RankedPair:
 
 class Ranking:
     """
-    A part's face pairs in the order to try them.
+    A part's feature pairs in the order to try them.
     """
+    @property
+    def beyond_faces(self) -> int:
+        """
+        Pairs with edges or vertices, ranked or not.
+        """
+    @property
+    def edges(self) -> int:
+        """
+        How many edges, if asked for.
+        """
     @property
     def faces(self) -> int:
         """
@@ -1776,6 +2074,11 @@ class Ranking:
     def rejected(self) -> list[RejectedPair]:
         """
         RejectedPair.
+        """
+    @property
+    def vertices(self) -> int:
+        """
+        How many vertices, if asked for.
         """
 
 class GraspScene:
@@ -1817,6 +2120,8 @@ class LegalityOptions:
         open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008,
         clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0003,
         least_contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        grip_force: typing.SupportsFloat | typing.SupportsIndex = 70.0,
+        grip_ratio: typing.SupportsFloat | typing.SupportsIndex = 20.0,
         most_poses: typing.SupportsInt | typing.SupportsIndex = 16,
     ) -> None: ...
     @property
@@ -1834,9 +2139,23 @@ class LegalityOptions:
     @directions.setter
     def directions(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def grip_force(self) -> float:
+        """
+        Of the jaws, for parts whose mass or density is known [N].
+        """
+    @grip_force.setter
+    def grip_force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def grip_ratio(self) -> float:
+        """
+        Friction of both pads over the part's weight where its mass is not known.
+        """
+    @grip_ratio.setter
+    def grip_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def least_contact_share(self) -> float:
         """
-        Of the pad on the unobstructed area.
+        Of the pad on the unobstructed features.
         """
     @least_contact_share.setter
     def least_contact_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -1933,6 +2252,11 @@ class LegalGrasps:
     def worst_reason(self) -> str:
         """
         The reason met most often.
+        """
+    @property
+    def would_turn(self) -> int:
+        """
+        Where the part's weight would turn it in the jaws.
         """
 
 class MotionGrid:
@@ -3565,7 +3889,7 @@ def describe_scene(checker: CollisionChecker, options: SceneOptions = ...) -> Sc
 
 def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = ...) -> FeaturePairs:
     """
-    Pairs of planar faces that a parallel jaw can hold (article, step 1).
+    Pairs of faces, edges and vertices that a parallel jaw can hold (article, step 1).
 
     Args:
         part: Body.
@@ -3586,7 +3910,7 @@ def find_legal_grasps(
     options: LegalityOptions = ...,
 ) -> LegalGrasps:
     """
-    Hand poses on a face pair at which hand and arm are legal at both ends.
+    Hand poses on a feature pair at which hand and arm are legal at both ends.
 
     Args:
         scene: GraspScene.
@@ -4101,7 +4425,7 @@ def rank_grasps(
     features: FeaturePairs | None = None,
 ) -> Ranking:
     """
-    Rank a part's face pairs by what stays unobstructed at both ends (article, steps 1-3).
+    Rank a part's feature pairs by what stays unobstructed at both ends (article, steps 1-3).
 
     Args:
         cell: Cell.

@@ -10,7 +10,6 @@ covered. Article: "Task-level planning of pick-and-place robot motions", Handey'
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -20,6 +19,7 @@ from handey import _core
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
+from handey.grasps import describe, grasps
 from handey.jaws import is_wider_than_jaws
 from handey.pick_and_place import (
     Carry,
@@ -201,14 +201,11 @@ def _plan_goal(
         report.funnel, report.attempts, report.status = {}, [], "failed"
         report.reasons = [unstable]
         return None
-    with work.clock("rank grasps"):
-        ranking = _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options.ranking)
-    _report_ranking(report, ranking, options.ranking)
     reaches: list[tuple[str, Reach]] = []
     direct = _with_budget(options, 0)
-    for pair, aim in _grasps(work, ranking, options, report):
+    for pair, aim in grasps(work, options, report):
         _respect(stop_at)
-        name = _describe(pair, aim)
+        name = describe(pair, aim)
         for q_pick in aim.q_pick[:2]:
             reach = find_reach(work, pair, aim, q_pick, direct)
             if isinstance(reach, Carry):
@@ -263,76 +260,6 @@ def _carried_by(work: Workspace) -> list[str]:
         if before and not stands_stably(without, touched.index, other.X_WB):
             fallen.append(other.name)
     return fallen
-
-
-def _grasps(
-    work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
-) -> Iterator[tuple[_core.RankedPair, _core.GraspPose]]:
-    """Grasp poses legal at both ends: a few of each face pair, best pair first, then more."""
-    legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
-    size, start = options.poses_per_round, 0
-    while any(poses is None or start < len(poses) for poses in legal):
-        for i, pair in enumerate(ranking.ranked):
-            if legal[i] is None:
-                with work.clock("legal grasps"):
-                    found = _core.find_legal_grasps(work.scene, work.solver, pair, options.legality)
-                legal[i] = list(found.poses)
-                report.add("legal grasp poses", len(found.poses))
-                if not found.poses:
-                    report.reasons.append(_illegal(pair, found))
-            for aim in (legal[i] or [])[start : start + size]:
-                yield pair, aim
-        start += size
-
-
-def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
-    fallen = {
-        "with too little contact": legal.too_little_contact,
-        "out of reach at the origin": legal.unreachable_at_origin,
-        "out of reach at the destination": legal.unreachable_at_destination,
-        "in collision at the origin": legal.collides_at_origin,
-        "in collision at the destination": legal.collides_at_destination,
-    }
-    counts = ", ".join(f"{count} {where}" for where, count in fallen.items() if count)
-    name = f"faces {pair.pair.face_a}/{pair.pair.face_b}, {1e3 * pair.pair.width:.1f} mm"
-    return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
-
-
-def _report_ranking(
-    report: GoalReport, ranking: _core.Ranking, options: _core.RankingOptions
-) -> None:
-    # A goal may be tried again from another state of the cell: only the last try is told.
-    report.funnel, report.reasons, report.attempts = {}, [], []
-    spanned = len(ranking.ranked) + len(ranking.obstructed)
-    report.add("faces", ranking.faces)
-    report.add("face pairs", spanned + len(ranking.rejected))
-    report.add("spanned by the jaws", spanned)
-    report.add("unobstructed", len(ranking.ranked))
-    if not ranking.faces:
-        least = 1e6 * options.features.least_face_area
-        reason = f"the part has no flat face of {least:g} mm2 or more for a pad to lie on"
-        report.reasons.append(reason)
-    elif not spanned and not ranking.rejected:
-        report.reasons.append("no two faces of the part are parallel and face away from each other")
-    rejected: dict[str, list[str]] = {}
-    for fallen in ranking.rejected:
-        rejected.setdefault(fallen.reason, []).append(f"{fallen.face_a}/{fallen.face_b}")
-    report.reasons += [f"faces {', '.join(pairs)}: {why}" for why, pairs in rejected.items()]
-    for pair in ranking.obstructed:
-        name = f"faces {pair.pair.face_a}/{pair.pair.face_b}"
-        blocked = 100 * (1 - pair.share)
-        report.reasons.append(
-            f"{name}: {blocked:.0f} % obstructed by {', '.join(pair.obstructing)}"
-        )
-
-
-def _describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
-    """The grasp in words; the hand's direction is told in the part's frame."""
-    z = aim.X_PH[:3, 2]
-    return (
-        f"faces {pair.pair.face_a}/{pair.pair.face_b}, {1e3 * aim.width:.1f} mm apart, "
-        f"hand along ({z[0]:+.2f}, {z[1]:+.2f}, {z[2]:+.2f}) of the part"
-    )
 
 
 def _with_budget(options: PlanOptions, round_: int) -> DirectOptions:

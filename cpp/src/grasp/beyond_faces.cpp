@@ -1,8 +1,8 @@
-// Pairs with an edge or a vertex: drafts are taken in the order of what they promise, those that are
-// nearly the same as one taken before are passed over, those beside which the part itself stands out
-// wait until the end, and regions are cut for as many as are kept. Choice of the promise: the kind's
-// worth, times how much of a pad's length the contact can have, times closeness to the centre of
-// mass.
+// Pairs with an edge or a vertex: drafts are taken in the order of what they promise, those that
+// are nearly the same as one taken before are passed over, those beside which the part itself
+// stands out wait until the end, and regions are cut for as many as are kept. Choice of the
+// promise: the kind's worth, times how much of a pad's length the contact can have, times closeness
+// to the centre of mass.
 #include "beyond_faces.hpp"
 
 #include <algorithm>
@@ -60,9 +60,8 @@ class BeyondFaces {
     drop_those_the_jaws_cannot_span(drafts);
     features_.beyond_faces = static_cast<int>(drafts.size());
     for (Draft& draft : drafts) draft.merit = promise(draft);
-    std::stable_sort(drafts.begin(), drafts.end(), [](const Draft& a, const Draft& b) {
-      return a.merit > b.merit + 1e-9;
-    });
+    std::stable_sort(drafts.begin(), drafts.end(),
+                     [](const Draft& a, const Draft& b) { return a.merit > b.merit + 1e-9; });
     std::vector<const Draft*> wait;
     for (const Draft& draft : drafts) {
       if (is_full()) return;
@@ -105,9 +104,8 @@ class BeyondFaces {
       return rejected.has_value();
     };
     drafts.erase(std::remove_if(drafts.begin(), drafts.end(), cannot), drafts.end());
-    std::stable_sort(fallen.begin(), fallen.end(), [](const auto& a, const auto& b) {
-      return a.width < b.width - 1e-9;
-    });
+    std::stable_sort(fallen.begin(), fallen.end(),
+                     [](const auto& a, const auto& b) { return a.width < b.width - 1e-9; });
     if (fallen.size() > kMostRejected) fallen.resize(kMostRejected);
     features_.rejected.insert(features_.rejected.end(), fallen.begin(), fallen.end());
   }
@@ -175,7 +173,7 @@ class BeyondFaces {
     } else if (draft.kind == PairKind::ParallelEdges) {
       const PartEdge &a = edge(draft.a.index), &b = edge(draft.b.index);
       cut_parallel({in_plane(a.from), in_plane(a.to)}, {in_plane(b.from), in_plane(b.to)}, pair);
-      least_area = options_.least_edge * pair.strip;
+      least_area = options_.least_edge * pair.strip;  // the strip is wider now
     } else {
       if (draft.kind == PairKind::FaceEdge) {
         const PartEdge& b = edge(draft.b.index);
@@ -189,10 +187,12 @@ class BeyondFaces {
         pair.contact_b = square(Eigen::Vector2d::Zero(), kContactWidth);
         least_area = 0.99 * pair.strip * pair.strip;
       }
-      pair.contact_a =
-          map_region(exposed_(draft.a.index), X_GP * face_frame(face(draft.a.index)));
+      pair.contact_a = map_region(exposed_(draft.a.index), X_GP * face_frame(face(draft.a.index)));
       pair.overlap = intersect(pair.overlap, pair.contact_a);
       pair.contact_b = intersect(pair.contact_b, pair.contact_a);
+      // The edge itself, not only the border of its strip, must be over the face.
+      const double least = draft.kind == PairKind::FaceEdge ? options_.least_edge : kContactWidth;
+      if (area(pair.contact_b) < 0.99 * least * kContactWidth) return false;
     }
     pair.area = area(pair.overlap);
     return pair.area >= least_area - 1e-12;

@@ -89,11 +89,11 @@ ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
                    pad_contact_area(pair.unobstructed, {target.x(), target.y(), theta}, gripper));
     }
   }
-  const bool is_line = pair.pair.kind == PairKind::FaceEdge || pair.pair.kind == PairKind::ParallelEdges;
+  const bool is_line =
+      pair.pair.kind == PairKind::FaceEdge || pair.pair.kind == PairKind::ParallelEdges;
   if (pair.pair.kind == PairKind::FaceFace) {
-    demand.required =
-        std::max(std::min(options.least_contact_share * pad_area, 0.8 * demand.best),
-                 std::min(0.15 * pad_area, 30e-6));
+    demand.required = std::max(std::min(options.least_contact_share * pad_area, 0.8 * demand.best),
+                               std::min(0.15 * pad_area, 30e-6));
   } else if (is_line) {
     const double full = gripper.pad_length * pair.pair.strip;
     demand.required = std::min(options.least_contact_share * full, 0.8 * demand.best);

@@ -13,7 +13,7 @@ namespace handey::grasp {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kClosed = 1e-4;      // an arc's end that is no face belongs to the arc [rad]
+constexpr double kClosed = 1e-4;         // an arc's end that is no face belongs to the arc [rad]
 constexpr double kLeanFromFace = 0.035;  // two edges: this far from lying on a face. Choice [rad]
 constexpr double kLeastCrossing = 0.17;  // edges at a smaller angle are not crossed [rad]
 constexpr double kSharp = 0.26;          // less than 15 degrees is a round, not a ridge [rad]
@@ -58,8 +58,8 @@ Eigen::Vector3d along(const PartEdge& edge) { return (edge.to - edge.from).norma
 double length(const PartEdge& edge) { return (edge.to - edge.from).norm(); }
 Eigen::Vector3d middle(const PartEdge& edge) { return 0.5 * (edge.from + edge.to); }
 
-// Choice: seen from a pad, no face of an edge may turn farther away than 114 degrees; the check of a
-// plan does not count what lies beyond 120 to this side.
+// Choice: seen from a pad, no face of an edge may turn farther away than 114 degrees; the check of
+// a plan does not count what lies beyond 120 to this side.
 bool is_blunt(const PartEdge& edge, const Eigen::Vector3d& normal) {
   return normal.dot(edge.normal_a) > -0.4 && normal.dot(edge.normal_b) > -0.4;
 }
@@ -67,7 +67,9 @@ bool is_blunt(const PartEdge& edge, const Eigen::Vector3d& normal) {
 class Drafter {
  public:
   Drafter(const FeaturePairs& features, double friction, const FeatureOptions& options)
-      : features_(features), options_(options), most_lean_(options.friction_use * std::atan(friction)) {}
+      : features_(features),
+        options_(options),
+        most_lean_(options.friction_use * std::atan(friction)) {}
 
   std::vector<Draft> draft() {
     for (std::size_t f = 0; f < features_.faces.size(); ++f) {

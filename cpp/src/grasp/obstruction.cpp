@@ -74,8 +74,8 @@ Pose Obstruction::side_frame(const FeaturePair& pair, bool side_a) const {
   const Feature& feature = side_a ? pair.a : pair.b;
   Eigen::Vector3d outward(0.0, 0.0, side_a ? 1.0 : -1.0);
   if (feature.kind == FeatureKind::Face) {
-    outward = pair.X_PG.linear().transpose() *
-              faces_[static_cast<std::size_t>(feature.index)].normal;
+    outward =
+        pair.X_PG.linear().transpose() * faces_[static_cast<std::size_t>(feature.index)].normal;
   }
   Pose X_GS = Pose::Identity();
   X_GS.linear() = rotation_with_z(outward, Eigen::Vector3d::UnitX());

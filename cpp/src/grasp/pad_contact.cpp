@@ -1,7 +1,7 @@
-// Soft-finger contact (Howe and Cutkosky's ellipsoid): friction carries a force f in the grasp plane
-// and a torque m about the closing axis while (f / F)^2 + (m / (F r))^2 <= 1, F being the friction
-// of both pads, 2 mu N, and r the mean distance of the contact from its centre. The weight W at a
-// lever l, in the hand's worst turn, has f = W and m = W l; so l <= r sqrt((F / W)^2 - 1).
+// Soft-finger contact (Howe and Cutkosky's ellipsoid): friction carries a force f in the grasp
+// plane and a torque m about the closing axis while (f / F)^2 + (m / (F r))^2 <= 1, F being the
+// friction of both pads, 2 mu N, and r the mean distance of the contact from its centre. The weight
+// W at a lever l, in the hand's worst turn, has f = W and m = W l; so l <= r sqrt((F / W)^2 - 1).
 #include "pad_contact.hpp"
 
 #include <algorithm>
@@ -69,10 +69,10 @@ PadContact pad_contact(const RankedPair& pair, const PlanarPose& pose, const Gri
     return crossed || feature.kind == FeatureKind::Vertex;
   };
   PadPatch a, b;
-  const bool enough_a = touches_enough(pair.contact_a, pair.pair.a.kind, at_point(pair.pair.a),
-                                       pose, gripper, a);
-  const bool enough_b = touches_enough(pair.contact_b, pair.pair.b.kind, at_point(pair.pair.b),
-                                       pose, gripper, b);
+  const bool enough_a =
+      touches_enough(pair.contact_a, pair.pair.a.kind, at_point(pair.pair.a), pose, gripper, a);
+  const bool enough_b =
+      touches_enough(pair.contact_b, pair.pair.b.kind, at_point(pair.pair.b), pose, gripper, b);
   contact.both_sides = enough_a && enough_b && contact.area > 0.0;
   // The force goes through the edge or the point, wherever on the face that is.
   contact.centre = b.centre;

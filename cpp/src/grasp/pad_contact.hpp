@@ -10,7 +10,8 @@ namespace handey::grasp {
 
 struct PadContact {
   double area = 0.0;  ///< of a pad on the unobstructed overlap [m2]
-  bool both_sides = false;  ///< each pad has what a plan's check asks of its feature, and a little more
+  bool both_sides =
+      false;  ///< each pad has what a plan's check asks of its feature, and a little more
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of the contacts, in G [m]
   double radius = 0.0;  ///< effective, of the friction torque about the closing axis [m]
 };
@@ -29,7 +30,7 @@ class Hold {
   std::string reason(const RankedPair& pair, const PadContact& contact) const;
 
  private:
-  double mass_;        // 0 if unknown [kg]
+  double mass_;  // 0 if unknown [kg]
   double friction_, force_;
   double ratio_;  // friction of both pads over weight
 };

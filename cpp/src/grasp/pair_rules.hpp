@@ -1,5 +1,5 @@
-// What all pairs of features have in common, whatever their kind: that the jaws must span them, what
-// they are worth against each other.
+// What all pairs of features have in common, whatever their kind: that the jaws must span them,
+// what they are worth against each other.
 #pragma once
 
 #include <optional>

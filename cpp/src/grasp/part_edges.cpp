@@ -8,10 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <variant>
-
-#include "../geometry/mesh_edges.hpp"
 
 namespace handey::grasp {
 namespace {
@@ -20,6 +19,14 @@ constexpr double kSameLine = 1e-5;  // pieces of an edge this near one line are 
 constexpr int kSegments = 32;       // of a cylinder, as its faces have
 
 using Faces = std::pair<int, int>;
+
+// One side of one triangle, keyed by its end points in ascending order.
+struct Side {
+  int low, high;
+  bool forward;  // from low to high
+  int triangle;
+  std::pair<int, int> ends() const { return {low, high}; }
+};
 
 struct Piece {
   Eigen::Vector3d from, to;
@@ -40,13 +47,14 @@ class EdgeFinder {
 
   void find() {
     rays_.resize(mesh_.vertices.size());
-    const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh_);
-    for_each_edge(half_edges, [&](std::size_t begin, std::size_t end) {
-      if (end - begin != 2 || half_edges[begin].forward == half_edges[begin + 1].forward) return;
-      const bool first_is_forward = half_edges[begin].forward;
-      add_piece(half_edges[first_is_forward ? begin : begin + 1],
-                half_edges[first_is_forward ? begin + 1 : begin]);
-    });
+    const std::vector<Side> sides = sorted_sides();
+    for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
+      while (next < sides.size() && sides[next].ends() == sides[i].ends()) ++next;
+      // One that runs from low to high comes after one that runs back.
+      if (next - i == 2 && sides[i + 1].forward && !sides[i].forward) {
+        add_piece(sides[i + 1], sides[i]);
+      }
+    }
     for (auto& [faces, pieces] : pieces_) join(faces, std::move(pieces));
     add_vertices();
   }
@@ -58,8 +66,24 @@ class EdgeFinder {
   }
   bool is_large(int index) const { return face(index).area >= options_.least_face_area; }
 
+  std::vector<Side> sorted_sides() const {
+    std::vector<Side> sides;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const int from = mesh_.triangles[t][k], to = mesh_.triangles[t][(k + 1) % 3];
+        if (from == to) continue;
+        sides.push_back({std::min(from, to), std::max(from, to), from < to, static_cast<int>(t)});
+      }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+      return std::tie(a.low, a.high, a.forward, a.triangle) <
+             std::tie(b.low, b.high, b.forward, b.triangle);
+    });
+    return sides;
+  }
+
   // `left` runs from low to high, `right` back.
-  void add_piece(const HalfEdge& left, const HalfEdge& right) {
+  void add_piece(const Side& left, const Side& right) {
     const Eigen::Vector3d from = vertex(left.low), to = vertex(left.high);
     const Eigen::Vector3d along = (to - from).normalized();
     rays_[static_cast<std::size_t>(left.low)].push_back(along);
@@ -81,15 +105,13 @@ class EdgeFinder {
 
   // Pieces of one line that touch are one edge.
   void join(const Faces& faces, std::vector<Piece> pieces) {
-    const Piece longest =
-        *std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
-          return a.length() < b.length() - 1e-12;
-        });
+    const Piece longest = *std::max_element(
+        pieces.begin(), pieces.end(),
+        [](const Piece& a, const Piece& b) { return a.length() < b.length() - 1e-12; });
     const Eigen::Vector3d along = (longest.to - longest.from).normalized();
     const auto place = [&](const Eigen::Vector3d& p) { return along.dot(p - longest.from); };
-    std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
-      return place(a.from) < place(b.from);
-    });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const Piece& a, const Piece& b) { return place(a.from) < place(b.from); });
     Piece edge = pieces.front();
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       if ((pieces[i].from - edge.to).norm() < kSameLine) {

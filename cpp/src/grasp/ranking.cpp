@@ -114,8 +114,7 @@ class Ranker {
   // The most that a pad can have of the overlap.
   double full_area(const FeaturePair& pair) const {
     if (pair.kind == PairKind::FaceFace) return pad_area();
-    const bool is_line =
-        pair.kind == PairKind::FaceEdge || pair.kind == PairKind::ParallelEdges;
+    const bool is_line = pair.kind == PairKind::FaceEdge || pair.kind == PairKind::ParallelEdges;
     return pair.strip * (is_line ? gripper_.pad_length : pair.strip);
   }
 
@@ -136,8 +135,7 @@ bool has_faces_only(const Pair& pair) {
 }
 
 bool is_asked_for(bool faces_only, const RankingOptions& options) {
-  return options.pairs == PairChoice::All ||
-         faces_only == (options.pairs == PairChoice::TwoFaces);
+  return options.pairs == PairChoice::All || faces_only == (options.pairs == PairChoice::TwoFaces);
 }
 
 // Best first; equal to 1e-9 is equal, so that rounding does not decide.

@@ -135,8 +135,7 @@ PadPatch pad_patch(const Region& region, const PlanarPose& pose, const Gripper& 
   const Eigen::Vector2d centre = moments.first / moments.area;
   patch.centre = Eigen::Vector2d(pose.x + c * centre.x() - s * centre.y(),
                                  pose.y + s * centre.x() + c * centre.y());
-  patch.gyration =
-      std::sqrt(std::max(0.0, moments.second / moments.area - centre.squaredNorm()));
+  patch.gyration = std::sqrt(std::max(0.0, moments.second / moments.area - centre.squaredNorm()));
   return patch;
 }
 

@@ -22,6 +22,11 @@ using testing::u_part;
 
 Gripper jaw() { return testing::jaw_robot()->gripper; }
 
+FeaturePairs face_pairs(const Body& part, const Gripper& gripper, FeatureOptions options = {}) {
+  options.beyond_faces = false;
+  return find_feature_pairs(part, gripper, options);
+}
+
 std::vector<double> widths(const FeaturePairs& features) {
   std::vector<double> result;
   for (const FeaturePair& pair : features.pairs) result.push_back(pair.width);
@@ -47,7 +52,7 @@ TEST(HandInPlane, ApproachesAlongThetaAndClosesAlongTheNormal) {
 }
 
 TEST(FeaturePairs, OfABoxAreItsThreePairsOfOppositeFaces) {
-  const FeaturePairs features = find_feature_pairs(box_body("b", {0.04, 0.06, 0.03}), jaw());
+  const FeaturePairs features = face_pairs(box_body("b", {0.04, 0.06, 0.03}), jaw());
   EXPECT_EQ(features.faces.size(), 6u);
   ASSERT_EQ(features.pairs.size(), 3u);
   EXPECT_TRUE(features.rejected.empty());
@@ -61,7 +66,7 @@ TEST(FeaturePairs, OfABoxAreItsThreePairsOfOppositeFaces) {
 TEST(FeaturePairs, GraspPlaneIsMidwayWithXAlongTheLongestEdge) {
   Body body = box_body("b", {0.04, 0.06, 0.03});
   body.shapes[0].X_BS = pose_from_xyz_rpy({0.3, -0.2, 0.5}, {0.3, -0.7, 1.1});
-  for (const FeaturePair& pair : find_feature_pairs(body, jaw()).pairs) {
+  for (const FeaturePair& pair : face_pairs(body, jaw()).pairs) {
     const Eigen::Vector3d in_box = body.shapes[0].X_BS.inverse() * pair.X_PG.translation();
     EXPECT_LT(in_box.norm(), 1e-7);
     EXPECT_NEAR(pair.X_PG.linear().determinant(), 1.0, 1e-9);
@@ -78,7 +83,7 @@ TEST(FeaturePairs, GraspPlaneIsMidwayWithXAlongTheLongestEdge) {
 }
 
 TEST(FeaturePairs, FacesOfASlotAreNotAPairButTheOuterFacesAre) {
-  const FeaturePairs features = find_feature_pairs(u_part(), jaw());
+  const FeaturePairs features = face_pairs(u_part(), jaw());
   // 10: each wall by itself, and the floor; 20: the U's front and back; 40: wall tops and
   // underside; 60: outer faces.
   const std::vector<double> found = widths(features);
@@ -98,7 +103,7 @@ TEST(FeaturePairs, CoplanarFacesOfTwoShapesAreOne) {
   body.name = "two";
   body.shapes.push_back({Box{{0.04, 0.02, 0.02}}, translation(-0.02, 0.0, 0.0)});
   body.shapes.push_back({Box{{0.04, 0.02, 0.02}}, translation(0.02, 0.0, 0.0)});
-  const FeaturePairs features = find_feature_pairs(body, jaw());
+  const FeaturePairs features = face_pairs(body, jaw());
   // The two faces on which the halves touch make no pair with anything.
   ASSERT_EQ(features.pairs.size(), 3u);
   EXPECT_NEAR(features.pairs[0].area, 0.08 * 0.02, 1e-9);
@@ -110,7 +115,7 @@ TEST(FeaturePairs, WhatAnotherShapeCoversIsTakenOff) {
   body.name = "stack";
   body.shapes.push_back({Box{{0.06, 0.06, 0.01}}, translation(0.0, 0.0, 0.005)});
   body.shapes.push_back({Box{{0.02, 0.02, 0.03}}, translation(0.0, 0.0, 0.025)});
-  const FeaturePairs features = find_feature_pairs(body, jaw());
+  const FeaturePairs features = face_pairs(body, jaw());
   const auto plate =
       std::find_if(features.pairs.begin(), features.pairs.end(),
                    [](const FeaturePair& pair) { return std::abs(pair.width - 0.01) < 1e-7; });
@@ -122,7 +127,7 @@ TEST(FeaturePairs, WhatAnotherShapeCoversIsTakenOff) {
 }
 
 TEST(FeaturePairs, TooWideSaysByHowMuch) {
-  const FeaturePairs features = find_feature_pairs(box_body("b", {0.0982, 0.06, 0.03}), jaw());
+  const FeaturePairs features = face_pairs(box_body("b", {0.0982, 0.06, 0.03}), jaw());
   ASSERT_EQ(features.rejected.size(), 1u);
   EXPECT_EQ(features.rejected[0].kind, Rejection::TooWide);
   EXPECT_NE(features.rejected[0].reason.find("98.2 mm wide"), std::string::npos);
@@ -135,8 +140,7 @@ TEST(FeaturePairs, TooThinAndTooSmallSayWhy) {
   gripper.min_opening = 0.005;
   FeatureOptions options;
   options.least_overlap = 20e-6 * 20.5;
-  const FeaturePairs features =
-      find_feature_pairs(box_body("b", {0.02, 0.02, 0.003}), gripper, options);
+  const FeaturePairs features = face_pairs(box_body("b", {0.02, 0.02, 0.003}), gripper, options);
   // The four small sides are under the least overlap, the large ones too near each other.
   EXPECT_TRUE(features.pairs.empty());
   ASSERT_EQ(features.rejected.size(), 3u);
@@ -161,7 +165,7 @@ TEST(FeaturePairs, NearlyParallelFacesHaveATaper) {
   Body body;
   body.name = "wedge";
   body.shapes.push_back({MeshShape{mesh, true}, Pose::Identity()});
-  const FeaturePairs features = find_feature_pairs(body, jaw());
+  const FeaturePairs features = face_pairs(body, jaw());
   const FeaturePair& pair = features.pairs.front();
   ASSERT_NEAR(pair.width, 0.02, 1e-4);
   for (const double x : {-0.02, 0.0, 0.02}) {
@@ -176,14 +180,14 @@ TEST(FeaturePairs, NearlyParallelFacesHaveATaper) {
   }
   FeatureOptions strict;
   strict.angle = 0.004;
-  EXPECT_EQ(find_feature_pairs(body, jaw(), strict).pairs.size(), features.pairs.size() - 1);
+  EXPECT_EQ(face_pairs(body, jaw(), strict).pairs.size(), features.pairs.size() - 1);
 }
 
 TEST(FeaturePairs, OfACylinderAreAsWideAsTheCylinder) {
   Body body;
   body.name = "can";
   body.shapes.push_back({Cylinder{0.02, 0.05}, Pose::Identity()});
-  const FeaturePairs features = find_feature_pairs(body, jaw());
+  const FeaturePairs features = face_pairs(body, jaw());
   ASSERT_EQ(features.pairs.size(), 17u);
   EXPECT_NEAR(features.pairs[0].width, 0.05, 1e-9);
   for (std::size_t i = 1; i < features.pairs.size(); ++i) {
@@ -196,7 +200,7 @@ TEST(FeaturePairs, ASphereHasNone) {
   Body body;
   body.name = "ball";
   body.shapes.push_back({Sphere{0.045}, Pose::Identity()});
-  const FeaturePairs features = find_feature_pairs(body, jaw());
+  const FeaturePairs features = face_pairs(body, jaw());
   EXPECT_TRUE(features.faces.empty());
   EXPECT_TRUE(features.pairs.empty());
 }
@@ -214,7 +218,7 @@ TEST(FeaturePairs, BoundMaterialInsideAndFreeSpaceOutside) {
       body.shapes.push_back({Box{{size(random), size(random), size(random)}},
                              translation(offset(random), offset(random), offset(random))});
     }
-    for (const FeaturePair& pair : find_feature_pairs(body, jaw()).pairs) {
+    for (const FeaturePair& pair : face_pairs(body, jaw()).pairs) {
       const InscribedCircle circle = largest_inscribed_circle(pair.overlap);
       for (const Eigen::Vector2d& at : {circle.centre, Eigen::Vector2d(0.0, 0.0)}) {
         ASSERT_TRUE(contains(pair.overlap, at));
@@ -236,11 +240,11 @@ TEST(FeaturePairs, BoundMaterialInsideAndFreeSpaceOutside) {
 TEST(FeaturePairs, RefuseAPartWithoutShapeAndBadOptions) {
   Body nothing;
   nothing.name = "nothing";
-  EXPECT_THROW(find_feature_pairs(nothing, jaw()), InvalidInput);
+  EXPECT_THROW(face_pairs(nothing, jaw()), InvalidInput);
   FeatureOptions options;
   options.angle = std::nan("");
-  EXPECT_THROW(find_feature_pairs(box_body("b", {1, 1, 1}), jaw(), options), InvalidInput);
-  EXPECT_THROW(find_feature_pairs(box_body("b", {1, -1, 1}), jaw()), InvalidInput);
+  EXPECT_THROW(face_pairs(box_body("b", {1, 1, 1}), jaw(), options), InvalidInput);
+  EXPECT_THROW(face_pairs(box_body("b", {1, -1, 1}), jaw()), InvalidInput);
 }
 
 // Counts of outward antiparallel pairs made by another program (facets of a mesh library, polygon
@@ -315,7 +319,7 @@ TEST_P(RealParts, HaveThePairsCountedByAnotherProgram) {
   options.angle = 1.1 * M_PI / 180.0;
   options.least_overlap = 10e-6;
   options.jaw_clearance = 0.0;
-  const FeaturePairs features = find_feature_pairs(*part, jaw(), options);
+  const FeaturePairs features = face_pairs(*part, jaw(), options);
   const PieceCount count = count_piece_pairs(features);
   EXPECT_EQ(count.pairs, expected.pairs) << features.pairs.size() << " pairs of merged faces";
   EXPECT_NEAR(count.best_area * 1e6, expected.best_area, 0.003 * expected.best_area);

@@ -84,7 +84,9 @@ void expect_legal(const GraspScene& scene, const RankedPair& pair, const GraspPo
 TEST(LegalGrasps, OfABlockOnATableAreManyAndLegal) {
   const GraspScene scene = make_scene(block_on_table(), translation(0.45, -0.25, 0.025));
   const SphericalWristSolver solver(*puma());
-  for (const RankedPair& pair : rank_grasps(scene.cell, 0, scene.X_WP_goal).ranked) {
+  RankingOptions two_faces;
+  two_faces.pairs = PairChoice::TwoFaces;
+  for (const RankedPair& pair : rank_grasps(scene.cell, 0, scene.X_WP_goal, two_faces).ranked) {
     const LegalGrasps legal = find_legal_grasps(scene, solver, pair);
     EXPECT_EQ(legal.poses.size(), 16u);
     for (const GraspPose& pose : legal.poses) expect_legal(scene, pair, pose);
@@ -92,8 +94,9 @@ TEST(LegalGrasps, OfABlockOnATableAreManyAndLegal) {
         std::is_sorted(legal.poses.begin(), legal.poses.end(),
                        [](const auto& a, const auto& b) { return a.merit > b.merit + 1e-9; }));
     EXPECT_EQ(legal.tried, static_cast<int>(legal.poses.size()) + legal.too_little_contact +
-                               legal.unreachable_at_origin + legal.unreachable_at_destination +
-                               legal.collides_at_origin + legal.collides_at_destination);
+                               legal.would_turn + legal.unreachable_at_origin +
+                               legal.unreachable_at_destination + legal.collides_at_origin +
+                               legal.collides_at_destination);
     EXPECT_GT(legal.poses.front().merit, 0.5);
     EXPECT_LE(legal.poses.front().merit, 1.0);
   }

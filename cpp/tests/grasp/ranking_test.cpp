@@ -17,6 +17,11 @@ namespace {
 using testing::box_body;
 using testing::translation;
 
+Ranking rank_faces(const Cell& cell, int part, const Pose& X_WP_goal, RankingOptions options = {}) {
+  options.pairs = PairChoice::TwoFaces;
+  return rank_grasps(cell, part, X_WP_goal, options);
+}
+
 // The layer of the test jaw: finger 10 mm thick, opened 8 mm.
 constexpr double kLayer = 0.018;
 
@@ -77,7 +82,7 @@ TEST(Ranking, DropsTopAndBottomOfAPartOnATable) {
   Cell cell = testing::jaw_cell();
   cell.fixtures.push_back(box_body("table", {2.0, 2.0, 0.05}, translation(0, 0, -0.025)));
   cell.parts.push_back(box_body("block", {0.08, 0.05, 0.04}, translation(0, 0, 0.02)));
-  const Ranking ranking = rank_grasps(cell, 0, translation(0.3, 0.0, 0.02));
+  const Ranking ranking = rank_faces(cell, 0, translation(0.3, 0.0, 0.02));
   ASSERT_EQ(ranking.ranked.size(), 2u);
   ASSERT_EQ(ranking.obstructed.size(), 1u);
   EXPECT_EQ(ranking.obstructed[0].obstructing,
@@ -95,7 +100,7 @@ TEST(Ranking, DoesNotPutASmallFreeFaceBeforeALargeOneNearlyFree) {
   // A plate: its edges are 4 mm thin and wholly free, a small stud stands near its face.
   cell.parts.push_back(box_body("plate", {0.09, 0.09, 0.004}, translation(0, 0, 0.5)));
   cell.fixtures.push_back(box_body("stud", {0.01, 0.01, 0.01}, translation(0.03, 0.03, 0.508)));
-  const Ranking ranking = rank_grasps(cell, 0, translation(1.0, 0.0, 0.5));
+  const Ranking ranking = rank_faces(cell, 0, translation(1.0, 0.0, 0.5));
   ASSERT_EQ(ranking.ranked.size(), 3u);
   EXPECT_NEAR(width_of(ranking, 0), 0.004, 1e-9);
   EXPECT_LT(ranking.ranked[0].share, 1.0);
@@ -109,7 +114,7 @@ TEST(Ranking, TakesOffWhatThePartsOwnRibsObstruct) {
   part.shapes.push_back({Box{{0.08, 0.06, 0.02}}, Pose::Identity()});
   part.shapes.push_back({Box{{0.08, 0.01, 0.005}}, translation(0.0, 0.0, 0.0125)});
   cell.parts.push_back(part);
-  const Ranking ranking = rank_grasps(cell, 0, translation(0.3, 0.0, 0.0));
+  const Ranking ranking = rank_faces(cell, 0, translation(0.3, 0.0, 0.0));
   const auto flat =
       std::find_if(ranking.ranked.begin(), ranking.ranked.end(),
                    [](const RankedPair& pair) { return std::abs(pair.pair.width - 0.02) < 1e-9; });
@@ -128,7 +133,7 @@ TEST(Ranking, CountsARibOfAMeshLikeOneOfAShape) {
   if (!cube) GTEST_SKIP() << "no shared data";
   Cell cell = testing::jaw_cell();
   cell.parts.push_back(*cube);
-  const Ranking ranking = rank_grasps(cell, 0, translation(0.3, 0.0, 0.0));
+  const Ranking ranking = rank_faces(cell, 0, translation(0.3, 0.0, 0.0));
   // Three pairs of 40 mm, outer faces (one of them three quarters); three of 20 mm, of which the
   // inner faces lie under the walls of the notch only beside, so that a finger stands free on them.
   ASSERT_EQ(ranking.ranked.size(), 6u);
@@ -172,7 +177,7 @@ TEST(Ranking, ShareAgreesWithSampledPointsWhoseFingersAreTestedOneByOne) {
       cell.fixtures.push_back(box_body("f" + std::to_string(i), {0.02, 0.03, 0.04},
                                        (i < 3 ? Pose::Identity() : goal) * X_PB));
     }
-    const Ranking ranking = rank_grasps(cell, 0, goal, options);
+    const Ranking ranking = rank_faces(cell, 0, goal, options);
     std::vector<RankedPair> all = ranking.ranked;
     all.insert(all.end(), ranking.obstructed.begin(), ranking.obstructed.end());
     ASSERT_EQ(all.size(), 3u);
@@ -210,7 +215,7 @@ TEST(Ranking, OfRealPartsPutsTheLargeOppositeFacesFirst) {
   if (!cube) GTEST_SKIP() << "no shared data";
   Cell cell = testing::jaw_cell();
   cell.parts.push_back(*cube);
-  const Ranking ranking = rank_grasps(cell, 0, translation(0.3, 0.0, 0.0));
+  const Ranking ranking = rank_faces(cell, 0, translation(0.3, 0.0, 0.0));
   ASSERT_GE(ranking.ranked.size(), 3u);
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(ranking.ranked[static_cast<std::size_t>(i)].pair.width, 0.02, 1e-5);

@@ -68,8 +68,8 @@ struct FeaturePair {
   Region overlap;
   double area = 0.0;   ///< of the overlap [m2]
   double strip = 0.0;  ///< width of the strip [m]; 0 for two faces
-  /// What each pad touches, in (x, y) of G: the whole face; an edge or vertex 0.2 mm wide. Empty for
-  /// two faces: there it is the overlap.
+  /// What each pad touches, in (x, y) of G: the whole face; an edge or vertex 0.2 mm wide. Empty
+  /// for two faces: there it is the overlap.
   Region contact_a, contact_b;
   /// How the width grows with x and y of G, for features that are not quite parallel [m/m].
   Eigen::Vector2d taper = Eigen::Vector2d::Zero();
@@ -109,10 +109,10 @@ struct FeatureOptions {
 struct FeaturePairs {
   std::vector<PlanarFace>
       faces;  ///< of all shapes of the part, in the part frame; triangles per shape
-  std::vector<PartEdge> edges;        ///< convex, longest first; empty if faces only
-  std::vector<PartVertex> vertices;   ///< convex; empty if faces only
-  std::vector<FeaturePair> pairs;     ///< that the jaws can span: two faces, largest overlap first;
-                                      ///< then the others, most promising first
+  std::vector<PartEdge> edges;       ///< convex, longest first; empty if faces only
+  std::vector<PartVertex> vertices;  ///< convex; empty if faces only
+  std::vector<FeaturePair> pairs;    ///< that the jaws can span: two faces, largest overlap first;
+                                     ///< then the others, most promising first
   std::vector<RejectedPair> rejected;  ///< pairs of faces all; of the others the nearest misses
   int beyond_faces = 0;  ///< pairs with edges or vertices that the jaws can span, kept or not
 };

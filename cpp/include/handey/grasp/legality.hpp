@@ -1,9 +1,10 @@
 // Grasp poses at which hand and arm are legal at both ends: enough of the pads on the features, a
-// hold that the part's weight does not turn (soft fingers), inverse kinematics within limits, and no collision with the hand open and with the hand closed,
-// at the origin and at the destination (T moves the hand with the part). The part stands there as
-// an obstacle for palm, arm and open fingers; closed fingers may touch it only by the pads.
-// Complete only for the candidates: targets x directions x the hand's two half-turns x pads drawn
-// back from the target. Article: the conditions that a grasp must meet at pick-up and at put-down.
+// hold that the part's weight does not turn (soft fingers), inverse kinematics within limits, and
+// no collision with the hand open and with the hand closed, at the origin and at the destination (T
+// moves the hand with the part). The part stands there as an obstacle for palm, arm and open
+// fingers; closed fingers may touch it only by the pads. Complete only for the candidates: targets
+// x directions x the hand's two half-turns x pads drawn back from the target. Article: the
+// conditions that a grasp must meet at pick-up and at put-down.
 #pragma once
 
 #include <memory>
@@ -63,8 +64,8 @@ struct GraspPose {
 struct LegalGrasps {
   std::vector<GraspPose> poses;  ///< best merit first
   // How many candidates fell, and where:
-  int tried = 0, too_little_contact = 0, would_turn = 0, unreachable_at_origin = 0, unreachable_at_destination = 0,
-      collides_at_origin = 0, collides_at_destination = 0;
+  int tried = 0, too_little_contact = 0, would_turn = 0, unreachable_at_origin = 0,
+      unreachable_at_destination = 0, collides_at_origin = 0, collides_at_destination = 0;
   std::string worst_reason;  ///< of those that got farthest, the one met most often: "hand hits
                              ///< table (destination): 14 of 48"; empty if none fell
 };

@@ -1,7 +1,7 @@
-// Which feature pair to try first: the one whose common area stays unobstructed when what is near the
-// part at its origin and, moved by T^-1, near it at its destination is projected on it. And where
-// in that area to put the fingertips. Obstacles count that reach into the layer outside a face
-// which a finger fills, the part's own protrusions too. Errs on the large side: what is called
+// Which feature pair to try first: the one whose common area stays unobstructed when what is near
+// the part at its origin and, moved by T^-1, near it at its destination is projected on it. And
+// where in that area to put the fingertips. Obstacles count that reach into the layer outside a
+// face which a finger fills, the part's own protrusions too. Errs on the large side: what is called
 // unobstructed is (obstacles are grown by the clearance, mitred). Not guaranteed: that palm and arm
 // find room; that is legality. Article, grasp planning steps 1-3, Figure 4. T takes the part from
 // its origin to its destination.
@@ -42,7 +42,7 @@ struct RankedPair {
   /// (parallel edges), 0.03 (face and vertex), 0.02 (crossed edges). Choice: two faces are tried
   /// first unless next to nothing of them is free.
   double score = 0.0;
-  Region contact_a, contact_b;   ///< FeaturePair's, unobstructed; empty for two faces
+  Region contact_a, contact_b;  ///< FeaturePair's, unobstructed; empty for two faces
   std::vector<std::string>
       obstructing;  ///< names: "block", "rack (destination)", "the part itself"
   std::vector<Eigen::Vector2d> targets;                      ///< fingertip targets, best first
@@ -50,9 +50,9 @@ struct RankedPair {
 };
 
 struct Ranking {
-  std::vector<RankedPair> ranked;      ///< best first
-  std::vector<RankedPair> obstructed;  ///< dropped for want of unobstructed area
-  std::vector<RejectedPair> rejected;  ///< too wide, ...
+  std::vector<RankedPair> ranked;          ///< best first
+  std::vector<RankedPair> obstructed;      ///< dropped for want of unobstructed area
+  std::vector<RejectedPair> rejected;      ///< too wide, ...
   int faces = 0, edges = 0, vertices = 0;  ///< that the part has (edges and vertices: if asked for)
   int beyond_faces = 0;                    ///< pairs with edges or vertices, ranked or not
 };

@@ -1,0 +1,140 @@
+"""Which grasps to try, and why the others fell: the article's steps 1 to 3 as one stream.
+
+Two faces are what jaws hold best, so their pairs come first, the best of each before more of any.
+Pairs with edges and vertices are looked for when those have not served: they are worth less, and
+there are more of them. What is passed over is told in the report, with numbers.
+Not guaranteed: that a grasp which is yielded can be reached; that is the approach's to say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from handey import _core
+from handey.pick_and_place import Workspace
+from handey.plan_options import PlanOptions
+from handey.report import GoalReport
+
+__all__ = ["describe", "grasps"]
+
+Grasp = tuple[_core.RankedPair, _core.GraspPose]
+
+
+def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterator[Grasp]:
+    """Grasp poses legal at both ends, in the order to try them; tells the report what fell."""
+    # A goal may be tried again from another state of the cell: only the last try is told.
+    report.funnel, report.reasons, report.attempts = {}, [], []
+    choice = options.ranking.pairs
+    if choice != _core.PairChoice.BeyondFaces:
+        ranking = _rank(work, options.ranking, _core.PairChoice.TwoFaces)
+        _report_faces(report, ranking, options.ranking)
+        yield from _legal(work, ranking, options, report)
+    if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
+        ranking = _rank(work, options.ranking, _core.PairChoice.BeyondFaces)
+        _report_beyond_faces(report, ranking)
+        yield from _legal(work, ranking, options, report)
+
+
+def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoice) -> _core.Ranking:
+    options = _core.RankingOptions(
+        features=wanted.features,
+        finger_clearance=wanted.finger_clearance,
+        open_clearance=wanted.open_clearance,
+        use_destination=wanted.use_destination,
+        least_share=wanted.least_share,
+        most_targets=wanted.most_targets,
+        pairs=choice,
+    )
+    scene = work.scene
+    with work.clock("rank grasps"):
+        return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)
+
+
+def _legal(
+    work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
+) -> Iterator[Grasp]:
+    """A few poses of each pair, best pair first, then more."""
+    legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
+    size, start = options.poses_per_round, 0
+    while any(poses is None or start < len(poses) for poses in legal):
+        for i, pair in enumerate(ranking.ranked):
+            if legal[i] is None:
+                with work.clock("legal grasps"):
+                    found = _core.find_legal_grasps(work.scene, work.solver, pair, options.legality)
+                legal[i] = list(found.poses)
+                report.add("legal grasp poses", len(found.poses))
+                if not found.poses:
+                    report.reasons.append(_illegal(pair, found))
+            for aim in (legal[i] or [])[start : start + size]:
+                yield pair, aim
+        start += size
+
+
+def describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
+    """The grasp in words; the hand's direction is told in the part's frame."""
+    z = aim.X_PH[:3, 2]
+    return (
+        f"{pair.pair}, {1e3 * aim.width:.1f} mm apart, "
+        f"hand along ({z[0]:+.2f}, {z[1]:+.2f}, {z[2]:+.2f}) of the part"
+    )
+
+
+def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
+    fallen = {
+        "with too little contact": legal.too_little_contact,
+        "would turn in the jaws": legal.would_turn,
+        "out of reach at the origin": legal.unreachable_at_origin,
+        "out of reach at the destination": legal.unreachable_at_destination,
+        "in collision at the origin": legal.collides_at_origin,
+        "in collision at the destination": legal.collides_at_destination,
+    }
+    counts = ", ".join(f"{count} {where}" for where, count in fallen.items() if count)
+    name = f"{pair.pair}, {1e3 * pair.pair.width:.1f} mm"
+    return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
+
+
+def _report_faces(
+    report: GoalReport, ranking: _core.Ranking, options: _core.RankingOptions
+) -> None:
+    spanned = len(ranking.ranked) + len(ranking.obstructed)
+    report.add("faces", ranking.faces)
+    report.add("face pairs", spanned + len(ranking.rejected))
+    report.add("spanned by the jaws", spanned)
+    report.add("unobstructed", len(ranking.ranked))
+    if not ranking.faces:
+        least = 1e6 * options.features.least_face_area
+        reason = f"the part has no flat face of {least:g} mm2 or more for a pad to lie on"
+        report.reasons.append(reason)
+    elif not spanned and not ranking.rejected:
+        report.reasons.append("no two faces of the part are parallel and face away from each other")
+    _report_fallen(report, ranking)
+
+
+def _report_beyond_faces(report: GoalReport, ranking: _core.Ranking) -> None:
+    spanned = len(ranking.ranked) + len(ranking.obstructed)
+    report.add("edges", ranking.edges)
+    report.add("vertices", ranking.vertices)
+    report.add("pairs with edges or vertices spanned by the jaws", ranking.beyond_faces)
+    report.add("of these looked at", spanned)
+    report.add("of these unobstructed", len(ranking.ranked))
+    if not spanned and not ranking.rejected:
+        report.reasons.append(
+            "no edge or vertex of the part is opposite to a face or an edge with which jaws could "
+            "hold it"
+        )
+    _report_fallen(report, ranking)
+
+
+def _report_fallen(report: GoalReport, ranking: _core.Ranking) -> None:
+    fallen: dict[str, list[str]] = {}
+    for pair in ranking.rejected:
+        fallen.setdefault(pair.reason, []).append(str(pair))
+    for ranked in ranking.obstructed:
+        blocked = f"{100 * (1 - ranked.share):.0f} % obstructed by {', '.join(ranked.obstructing)}"
+        fallen.setdefault(blocked, []).append(str(ranked.pair))
+    report.reasons += [f"{_listed(pairs)}: {why}" for why, pairs in fallen.items()]
+
+
+def _listed(pairs: list[str], most: int = 6) -> str:
+    more = len(pairs) - most
+    return ", ".join(pairs[:most]) + (f" and {more} more" if more > 0 else "")
