@@ -324,19 +324,21 @@ Args:
           "X_WP_goal", [](const GraspScene& self) { return matrix(self.X_WP_goal); }, "(4, 4)");
   const LegalityOptions defaults;
   py::class_<LegalityOptions>(m, "LegalityOptions", "Options of find_legal_grasps.")
-      .def(py::init([](int directions, double open_clearance, double clearance,
+      .def(py::init([](int directions, double spacing, double open_clearance, double clearance,
                        double least_contact_share, double grip_force, double grip_ratio,
                        int most_poses) {
-             return LegalityOptions{directions, open_clearance, clearance, least_contact_share,
-                                    grip_force, grip_ratio,     most_poses};
+             return LegalityOptions{directions,          spacing,    open_clearance, clearance,
+                                    least_contact_share, grip_force, grip_ratio,     most_poses};
            }),
-           py::kw_only(), "directions"_a = defaults.directions,
+           py::kw_only(), "directions"_a = defaults.directions, "spacing"_a = defaults.spacing,
            "open_clearance"_a = defaults.open_clearance, "clearance"_a = defaults.clearance,
            "least_contact_share"_a = defaults.least_contact_share,
            "grip_force"_a = defaults.grip_force, "grip_ratio"_a = defaults.grip_ratio,
            "most_poses"_a = defaults.most_poses)
       .def_readwrite("directions", &LegalityOptions::directions,
                      "Approach directions per target; those along edges come on top.")
+      .def_readwrite("spacing", &LegalityOptions::spacing,
+                     "Of a lattice of points tried beside the targets; 0: none [m].")
       .def_readwrite("open_clearance", &LegalityOptions::open_clearance,
                      "The open pads stand this far from the faces, where there is room [m].")
       .def_readwrite("clearance", &LegalityOptions::clearance, "Of the whole robot [m].")

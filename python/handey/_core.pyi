@@ -2117,6 +2117,7 @@ class LegalityOptions:
         self,
         *,
         directions: typing.SupportsInt | typing.SupportsIndex = 24,
+        spacing: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008,
         clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0003,
         least_contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
@@ -2173,6 +2174,13 @@ class LegalityOptions:
         """
     @open_clearance.setter
     def open_clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def spacing(self) -> float:
+        """
+        Of a lattice of points tried beside the targets; 0: none [m].
+        """
+    @spacing.setter
+    def spacing(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class GraspPose:
     """

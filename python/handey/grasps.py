@@ -18,6 +18,8 @@ from handey.report import GoalReport
 __all__ = ["describe", "grasps"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
+# A hand pose: index of its pair, place and direction in the grasp plane, half-turn.
+_PoseKey = tuple[int, float, float, float, bool]
 
 
 def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterator[Grasp]:
@@ -28,11 +30,11 @@ def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterato
     if choice != _core.PairChoice.BeyondFaces:
         ranking = _rank(work, options.ranking, _core.PairChoice.TwoFaces)
         _report_faces(report, ranking, options.ranking)
-        yield from _legal(work, ranking, options, report)
+        yield from _in_passes(work, ranking, options, report)
     if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
         ranking = _rank(work, options.ranking, _core.PairChoice.BeyondFaces)
         _report_beyond_faces(report, ranking)
-        yield from _legal(work, ranking, options, report)
+        yield from _in_passes(work, ranking, options, report)
 
 
 def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoice) -> _core.Ranking:
@@ -50,24 +52,49 @@ def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoic
         return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)
 
 
-def _legal(
+def _in_passes(
     work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
 ) -> Iterator[Grasp]:
-    """A few poses of each pair, best pair first, then more."""
+    """Legal poses of the pairs; denser ones as long as no grasp could be approached."""
+    # Why pairs fell is told of the last pass, which looks at the most poses.
+    fallen, tried = list(report.reasons), set[_PoseKey]()
+    for legality in (options.legality, *options.denser):
+        report.reasons = list(fallen)
+        yield from _legal(work, ranking, legality, options.poses_per_round, report, tried)
+        if report.funnel.get("approached"):
+            return
+
+
+def _legal(
+    work: Workspace,
+    ranking: _core.Ranking,
+    legality: _core.LegalityOptions,
+    size: int,
+    report: GoalReport,
+    tried: set[_PoseKey],
+) -> Iterator[Grasp]:
+    """`size` poses of each pair, best pair first, then as many more."""
     legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
-    size, start = options.poses_per_round, 0
+    start = 0
     while any(poses is None or start < len(poses) for poses in legal):
         for i, pair in enumerate(ranking.ranked):
             if legal[i] is None:
                 with work.clock("legal grasps"):
-                    found = _core.find_legal_grasps(work.scene, work.solver, pair, options.legality)
-                legal[i] = list(found.poses)
-                report.add("legal grasp poses", len(found.poses))
+                    found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
+                fresh = [pose for pose in found.poses if _key(i, pose) not in tried]
+                tried.update(_key(i, pose) for pose in fresh)
+                legal[i] = fresh
+                report.add("legal grasp poses", len(fresh))
                 if not found.poses:
                     report.reasons.append(_illegal(pair, found))
             for aim in (legal[i] or [])[start : start + size]:
                 yield pair, aim
         start += size
+
+
+def _key(pair: int, pose: _core.GraspPose) -> _PoseKey:
+    at = pose.in_plane
+    return pair, round(at.x, 6), round(at.y, 6), round(at.theta, 6), pose.flipped
 
 
 def describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:

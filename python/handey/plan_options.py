@@ -20,6 +20,14 @@ GREATEST_SEED = 2**64 - 1
 MOST_ITERATIONS = 2**31 - 1
 
 
+def _denser() -> tuple[_core.LegalityOptions, ...]:
+    # Choice: 5 degrees and 8 mm; then also poses that have little more than the least contact.
+    return (
+        _core.LegalityOptions(directions=72, spacing=0.008),
+        _core.LegalityOptions(directions=72, spacing=0.008, least_contact_share=0.15),
+    )
+
+
 @dataclass(frozen=True)
 class PlanOptions:
     """What bounds and steers planning.
@@ -30,6 +38,7 @@ class PlanOptions:
             for no bound.
         ranking: options of steps 1 to 3.
         legality: options of the test of grasp poses at both ends.
+        denser: the same, for further passes over the grasps where the one before gave no plan.
         direct: options and budgets of one attempt.
         poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
         sampling_rounds: iterations of the gross planner in each pass over the grasps.
@@ -43,6 +52,7 @@ class PlanOptions:
     deadline: float | None = None
     ranking: _core.RankingOptions = field(default_factory=_core.RankingOptions)
     legality: _core.LegalityOptions = field(default_factory=_core.LegalityOptions)
+    denser: tuple[_core.LegalityOptions, ...] = field(default_factory=_denser)
     direct: DirectOptions = field(default_factory=DirectOptions)
     poses_per_round: int = 4
     sampling_rounds: tuple[int, ...] = (400, 4000)

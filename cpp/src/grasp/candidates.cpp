@@ -2,6 +2,7 @@
 // a long finger tip or a palm finds room where the pad in full depth does not.
 #include "candidates.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +61,33 @@ std::vector<double> approach_directions(const RankedPair& pair, int count) {
   const double spacing = 2.0 * kPi / std::max(1, count);
   for (int i = 0; i < count; ++i) add(first + i * spacing, 0.4 * spacing);
   return directions;
+}
+
+/// Where the middle of the pads may be: the targets, and the lattice that the options ask for.
+struct Places {
+  std::vector<Eigen::Vector2d> points;
+  std::size_t targets = 0;  ///< the first of them
+};
+
+Places places_of(const RankedPair& pair, const Gripper& gripper, double spacing) {
+  Places places{pair.targets, pair.targets.size()};
+  if (spacing <= 0.0 || pair.unobstructed.empty()) return places;
+  Eigen::AlignedBox2d extent;
+  for (const Polygon& loop : pair.unobstructed.loops) {
+    for (const Eigen::Vector2d& corner : loop) extent.extend(corner);
+  }
+  const double round = 0.5 * std::max(gripper.pad_length, gripper.pad_width);
+  const Eigen::Vector2d half = 0.5 * extent.sizes() + Eigen::Vector2d::Constant(round);
+  const int columns = static_cast<int>(half.x() / spacing);
+  const int rows = static_cast<int>(half.y() / spacing);
+  for (int row = -rows; row <= rows; ++row) {
+    for (int column = -columns; column <= columns; ++column) {
+      const Eigen::Vector2d point = extent.center() + spacing * Eigen::Vector2d(column, row);
+      if ((nearest_point(pair.unobstructed, point) - point).norm() > round) continue;
+      places.points.push_back(point);
+    }
+  }
+  return places;
 }
 
 // Is a finger, from its tip back over the pad's length, beside something that stands in its layer?
@@ -130,10 +158,13 @@ CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
   const std::vector<double> directions = approach_directions(pair, options.directions);
   int group = 0;
   double least_excess = 0.0;
-  for (const Eigen::Vector2d& target : pair.targets) {
+  const Places places = places_of(pair, gripper, options.spacing);
+  for (std::size_t i = 0; i < places.points.size(); ++i) {
+    const Eigen::Vector2d& target = places.points[i];
     for (const double theta : directions) {
       const bool along_edge = is_along_edge(pair, theta);
       for (const double share : kDrawnBack) {
+        if (share > 0.0 && i >= places.targets) break;  // the lattice has these poses
         const double back = share * gripper.pad_length;
         Candidate candidate;
         candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),

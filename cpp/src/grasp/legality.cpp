@@ -25,6 +25,9 @@ void require_valid_input(const GraspScene& scene, const RankedPair& pair,
   require_rigid(pair.pair.X_PG, "pair.X_PG");
   grasp::require_in_range(pair.pair.width, 0.0, 10.0, "pair.width");
   grasp::require_in_range(options.directions, 1, 3600, "legality.directions");
+  if (options.spacing != 0.0) {
+    grasp::require_in_range(options.spacing, 1e-4, 1.0, "legality.spacing");
+  }
   grasp::require_in_range(options.open_clearance, 0.0, 0.5, "legality.open_clearance");
   grasp::require_in_range(options.clearance, 0.0, 0.1, "legality.clearance");
   grasp::require_in_range(options.least_contact_share, 0.0, 1.0, "legality.least_contact_share");

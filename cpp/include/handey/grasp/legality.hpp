@@ -29,6 +29,9 @@ struct GraspScene {
 struct LegalityOptions {
   int directions =
       24;  ///< approach directions per target, evenly spaced; those along edges come on top
+  /// Beside the targets, points on a square lattice this far apart over all of the unobstructed
+  /// area and half a pad round it; 0: none. For cells in which the targets give nothing [m].
+  double spacing = 0.0;
   double open_clearance = 0.008;  ///< the open pads stand this far from the faces, each side, where
                                   ///< jaw and neighbours allow; else half, then a quarter of it [m]
   double clearance = 3e-4;        ///< of the whole robot [m]
