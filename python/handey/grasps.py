@@ -9,6 +9,7 @@ Not guaranteed: that a grasp which is yielded can be reached; that is the approa
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from handey import _core
 from handey.pick_and_place import Workspace
@@ -18,8 +19,30 @@ from handey.report import GoalReport
 __all__ = ["describe", "grasps"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
+DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs, the best
 # A hand pose: index of its pair, place and direction in the grasp plane, half-turn.
 _PoseKey = tuple[int, float, float, float, bool]
+
+
+@dataclass
+class _Seen:
+    """What the passes before have looked at.
+
+    Attributes:
+        poses: that were legal.
+        told: per pair that has none, where in the report's reasons that is told.
+    """
+
+    poses: set[_PoseKey] = field(default_factory=set)
+    told: dict[int, int] = field(default_factory=dict)
+
+    def tell(self, report: GoalReport, pair: int, reason: str, is_new: bool = False) -> None:
+        """Why a pair has no legal pose; what the last pass says counts."""
+        if pair in self.told:
+            report.reasons[self.told[pair]] = reason
+        elif is_new:
+            self.told[pair] = len(report.reasons)
+            report.reasons.append(reason)
 
 
 def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterator[Grasp]:
@@ -30,11 +53,11 @@ def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterato
     if choice != _core.PairChoice.BeyondFaces:
         ranking = _rank(work, options.ranking, _core.PairChoice.TwoFaces)
         _report_faces(report, ranking, options.ranking)
-        yield from _in_passes(work, ranking, options, report)
+        yield from _of_faces(work, ranking, options, report)
     if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
         ranking = _rank(work, options.ranking, _core.PairChoice.BeyondFaces)
         _report_beyond_faces(report, ranking)
-        yield from _in_passes(work, ranking, options, report)
+        yield from _legal(work, ranking.ranked, options.legality, options.poses_per_round, report)
 
 
 def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoice) -> _core.Ranking:
@@ -52,41 +75,43 @@ def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoic
         return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)
 
 
-def _in_passes(
+def _of_faces(
     work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
 ) -> Iterator[Grasp]:
-    """Legal poses of the pairs; denser ones as long as no grasp could be approached."""
-    # Why pairs fell is told of the last pass, which looks at the most poses.
-    fallen, tried = list(report.reasons), set[_PoseKey]()
-    for legality in (options.legality, *options.denser):
-        report.reasons = list(fallen)
-        yield from _legal(work, ranking, legality, options.poses_per_round, report, tried)
+    """Legal poses of all pairs; denser ones of the best as long as no grasp could be approached."""
+    size, seen = options.poses_per_round, _Seen()
+    ranked = ranking.ranked
+    yield from _legal(work, ranked, options.legality, size, report, seen)
+    for legality in options.denser:
         if report.funnel.get("approached"):
             return
+        yield from _legal(work, ranked[:DENSER_PAIRS], legality, size, report, seen)
 
 
 def _legal(
     work: Workspace,
-    ranking: _core.Ranking,
+    ranked: list[_core.RankedPair],
     legality: _core.LegalityOptions,
     size: int,
     report: GoalReport,
-    tried: set[_PoseKey],
+    seen: _Seen | None = None,
 ) -> Iterator[Grasp]:
-    """`size` poses of each pair, best pair first, then as many more."""
-    legal: list[list[_core.GraspPose] | None] = [None] * len(ranking.ranked)
+    """`size` poses of each pair, best pair first, then as many more; none that was tried before."""
+    seen = seen or _Seen()
+    legal: list[list[_core.GraspPose] | None] = [None] * len(ranked)
     start = 0
     while any(poses is None or start < len(poses) for poses in legal):
-        for i, pair in enumerate(ranking.ranked):
+        for i, pair in enumerate(ranked):
             if legal[i] is None:
                 with work.clock("legal grasps"):
                     found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
-                fresh = [pose for pose in found.poses if _key(i, pose) not in tried]
-                tried.update(_key(i, pose) for pose in fresh)
-                legal[i] = fresh
-                report.add("legal grasp poses", len(fresh))
-                if not found.poses:
-                    report.reasons.append(_illegal(pair, found))
+                legal[i] = [pose for pose in found.poses if _key(i, pose) not in seen.poses]
+                seen.poses.update(_key(i, pose) for pose in found.poses)
+                report.add("legal grasp poses", len(legal[i] or []))
+                if found.poses:
+                    seen.tell(report, i, f"{pair.pair}: legal hand poses only in a denser pass")
+                else:
+                    seen.tell(report, i, _illegal(pair, found), is_new=True)
             for aim in (legal[i] or [])[start : start + size]:
                 yield pair, aim
         start += size
