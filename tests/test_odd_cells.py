@@ -200,7 +200,7 @@ IMPOSSIBLE = {
                 box("right", "[0.2, 0.02, 0.02]", "[0.5, 0.16, 0.01]"),
             )
         },
-        "held block does not come clear of",
+        "it fits too closely to be moved out",
     ),
     "no free place to change over": (
         {

@@ -335,18 +335,21 @@ Raises:
 void bind_retreat(py::module_& m) {
   const RetreatOptions defaults;
   py::class_<RetreatOptions>(m, "RetreatOptions", "Options of plan_retreat.")
-      .def(py::init([](double least, double most, double step, double contact_travel,
+      .def(py::init([](double least, double most, double step, double contact_travel, double room,
                        const CertificateOptions& certificate) {
-             return RetreatOptions{least, most, step, contact_travel, certificate};
+             return RetreatOptions{least, most, step, contact_travel, room, certificate};
            }),
            py::kw_only(), "least"_a = defaults.least, "most"_a = defaults.most,
            "step"_a = defaults.step, "contact_travel"_a = defaults.contact_travel,
-           "certificate"_a = defaults.certificate)
+           "room"_a = defaults.room, "certificate"_a = defaults.certificate)
       .def_readwrite("least", &RetreatOptions::least, "A shorter retreat is a failure [m].")
       .def_readwrite("most", &RetreatOptions::most, "Where it stops [m].")
       .def_readwrite("step", &RetreatOptions::step, "Between two hand poses [m].")
       .def_readwrite("contact_travel", &RetreatOptions::contact_travel,
                      "First step, with contacts allowed [m].")
+      .def_readwrite("room", &RetreatOptions::room,
+                     "Ends at the farthest point where the first three joints are free by so much "
+                     "[rad]; 0: not asked.")
       .def_readwrite("certificate", &RetreatOptions::certificate);
   py::class_<RetreatResult>(m, "RetreatResult", "A retreat, or why there is none; true if found.")
       .def_readonly("found", &RetreatResult::found)

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "certified_path.hpp"
+#include "handey/collision/box_certificate.hpp"
 #include "handey/collision/contact_motion.hpp"
 #include "handey/errors.hpp"
 #include "reason.hpp"
@@ -42,6 +43,7 @@ void require_valid(const Cell& cell, const Configuration& start, const Eigen::Ve
                 "contact_travel and step must be positive");
   require_range(options.contact_travel <= options.least && options.least <= options.most,
                 "there must be contact_travel <= least <= most");
+  require_range(options.room >= 0.0 && options.room < 1.0, "room must be 0 to 1 rad");
   require_range(options.most < 10.0 && options.most / options.step < 1e5,
                 "most must be some steps");
 }
@@ -118,7 +120,25 @@ std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
     if (!back.empty()) return back;
   }
   const std::optional<Hit> hit = clear.find_hit(b, options.certificate.clearance);
-  return hit ? hit->a + " does not come clear of " + hit->b : "";
+  if (!hit) return "";
+  return hit->a + " still touches " + hit->b + " there, or has less than " +
+         millimetres(options.certificate.clearance) +
+         " to spare: it fits too closely to be moved out";
+}
+
+/// The last point, not nearer than `least`, at which the first three joints are free by `room` to
+/// either side; the farthest if there is none.
+std::size_t last_with_room(CollisionChecker& clear, const std::vector<Configuration>& points,
+                           const std::vector<double>& at, std::size_t farthest,
+                           const RetreatOptions& options) {
+  if (options.room <= 0.0) return farthest;
+  BoxProver prover(clear, options.certificate.clearance);
+  Eigen::VectorXd half = Eigen::VectorXd::Zero(points.front().q.size());
+  half.head(std::min<Eigen::Index>(3, half.size())).setConstant(options.room);
+  for (std::size_t i = farthest + 1; i-- > 0 && at[i] >= options.least - 1e-9;) {
+    if (prover.prove({points[i], half}).free) return i;
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -161,14 +181,24 @@ RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear
       break;
     }
     points.push_back(next);
+    ends_in_room =
+        options.room > 0.0 && at[i] >= options.least - 1e-9 && has_room(prover, next, options.room);
+    if (ends_in_room) break;
   }
-  const CertifiedPath proved = certified_path(clear, points, options.certificate);
+  CertifiedPath proved = certified_path(clear, points, options.certificate);
   if (proved.reached + 1 < points.size()) stop = describe(proved.obstacle.hit);
+  const std::size_t farthest = proved.reached;
+  const std::size_t roomy = last_with_room(clear, points, at, farthest, options);
+  if (roomy < farthest) {
+    points.resize(roomy + 1);
+    CertifiedPath shorter = certified_path(clear, points, options.certificate);
+    if (shorter.reached == roomy) proved = std::move(shorter);
+  }
   result.path.insert(result.path.end(), proved.path.begin(), proved.path.end());
   result.travelled = at[proved.reached];
   result.found = result.travelled >= options.least - 1e-9;
-  if (proved.reached + 1 < at.size()) {
-    result.reason = "after " + millimetres(result.travelled) + ": " + stop;
+  if (farthest + 1 < at.size()) {
+    result.reason = "after " + millimetres(at[farthest]) + ": " + stop;
     if (!result.found) result.reason += "; " + millimetres(options.least) + " are needed";
   }
   return result;

@@ -18,6 +18,11 @@ struct RetreatOptions {
   double most = 0.10;              ///< stops there [m]
   double step = 0.01;              ///< between two hand poses [m]
   double contact_travel = 0.0015;  ///< first step, with contacts allowed [m]
+  /// It ends at the farthest point where the first three joints are free by so much to either
+  /// side, the wrist as it is, if there is one: the gross motion then starts in a free cell of its
+  /// slice (article, "Global planning": I' and F'). Choice: the width of a finest cell. 0: not
+  /// asked [rad].
+  double room = 0.0175;
   CertificateOptions certificate;
 };
 
