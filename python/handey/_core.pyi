@@ -2744,6 +2744,7 @@ class RetreatOptions:
         most: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         step: typing.SupportsFloat | typing.SupportsIndex = 0.01,
         contact_travel: typing.SupportsFloat | typing.SupportsIndex = 0.0015,
+        room: typing.SupportsFloat | typing.SupportsIndex = 0.0175,
         certificate: CertificateOptions = ...,
     ) -> None: ...
     @property
@@ -2767,6 +2768,13 @@ class RetreatOptions:
         """
     @most.setter
     def most(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def room(self) -> float:
+        """
+        Ends at the farthest point where the first three joints are free by so much [rad]; 0: not asked.
+        """
+    @room.setter
+    def room(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def step(self) -> float:
         """

@@ -19,6 +19,7 @@ from handey import _core
 from handey.gross_motion import Search, go, go_straight, open_and_go
 from handey.lift import Lift, lift
 from handey.report import StageClock
+from handey.way_out import WayOutOptions, way_out
 
 __all__ = [
     "Carry",
@@ -51,12 +52,15 @@ class DirectOptions:
         retreat: options of lifts and withdrawals.
         gross: options of the gross motions.
         most_places: configurations at the destination that are tried for one grasp.
+        arm: budget of motions near obstacles by the whole arm, where the local planners give none;
+            None: they are not tried.
     """
 
     approach: _core.ApproachOptions = field(default_factory=_core.ApproachOptions)
     retreat: _core.RetreatOptions = field(default_factory=_core.RetreatOptions)
     gross: _core.GrossOptions = field(default_factory=_core.GrossOptions)
     most_places: int = 4
+    arm: WayOutOptions | None = None
 
 
 @dataclass(frozen=True)
@@ -174,10 +178,15 @@ def find_reach(
     scene = work.scene
     with work.clock("approach"):
         approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
-    if not approach:
+        grasp, path, planner = approach.grasp, list(approach.path), _planner_of(approach)
+        if not approach and options.arm is not None:
+            checker = _core.CollisionChecker(work.model, scene.cell)
+            inside = _at(q_pick, aim.opening)
+            path = way_out(work.solver, checker, inside, options.arm)[::-1]
+            grasp, planner = aim, PLANNERS["Arm"]
+    if not path:
         return Carry("approach", approach.reason)
-    work.given["approach", _planner_of(approach)] += 1
-    grasp, path = approach.grasp, list(approach.path)
+    work.given["approach", planner] += 1
     q = path[-1].q
     X_WP = scene.cell.parts[scene.part].X_WB
     X_HP = np.linalg.inv(_core.hand_in_world(scene.cell, q)) @ X_WP
@@ -209,7 +218,7 @@ def find_reach(
     first = next(others, None)
     if first is None:
         return Carry(*(reasons or [("deposit", "no configuration at the destination")])[-1])
-    planners = (_planner_of(approach), depart.planner)
+    planners = (planner, depart.planner)
     return Reach(grasp, path, depart.path, planners, X_HP, [first], others)
 
 
@@ -251,7 +260,15 @@ def _lift(
     X_HP: np.ndarray,
     options: DirectOptions,
 ) -> Lift:
-    return lift(work.model, work.solver, cell, work.scene.part, start, X_HP, options.retreat)
+    arm = options.arm
+
+    def sample(
+        checker: _core.CollisionChecker, stop: _core.Configuration
+    ) -> list[_core.Configuration]:
+        return [] if arm is None else way_out(work.solver, checker, stop, arm)
+
+    part = work.scene.part
+    return lift(work.model, work.solver, cell, part, start, X_HP, options.retreat, sample)
 
 
 def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
@@ -369,6 +386,10 @@ def _withdraw(
         slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
         if slide.found and np.array_equal(slide.path[-1].q, q_place):
             return list(slide.path)[::-1], _planner_of(slide), ""
+        if options.arm is not None:
+            way = way_out(work.solver, checker, opened, options.arm)
+            if way:
+                return way, PLANNERS["Arm"], ""
     return [], "", reason
 
 

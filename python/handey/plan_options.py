@@ -42,6 +42,8 @@ class PlanOptions:
         direct: options and budgets of one attempt.
         poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
         sampling_rounds: iterations of the gross planner in each pass over the grasps.
+        most_by_arm: grasps for which, from the second pass on, the whole arm is sampled near
+            obstacles, where the local planners gave no way.
 
     Raises:
         TypeError: if a number is none.
@@ -56,10 +58,12 @@ class PlanOptions:
     direct: DirectOptions = field(default_factory=DirectOptions)
     poses_per_round: int = 4
     sampling_rounds: tuple[int, ...] = (400, 4000)
+    most_by_arm: int = 4
 
     def __post_init__(self) -> None:
         _require_whole("seed", self.seed, 0, GREATEST_SEED)
         _require_whole("poses_per_round", self.poses_per_round, 1, MOST_ITERATIONS)
+        _require_whole("most_by_arm", self.most_by_arm, 0, MOST_ITERATIONS)
         if not self.sampling_rounds:
             raise _out_of_range("sampling_rounds", "expected at least one number, found none")
         for iterations in self.sampling_rounds:

@@ -34,6 +34,7 @@ from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
 from handey.report import Attempt, GoalReport, GrossMotion, LocalMotion, Report, StageClock
 from handey.task import PlaceAt
+from handey.way_out import WayOutOptions
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 
@@ -201,34 +202,75 @@ def _plan_goal(
         report.funnel, report.attempts, report.status = {}, [], "failed"
         report.reasons = [unstable]
         return None
-    reaches: list[tuple[str, Reach]] = []
+    tries = _Tries(work, report)
     direct = _with_budget(options, 0)
     for pair, aim in grasps(work, options, report):
         _respect(stop_at)
-        name = describe(pair, aim)
         for q_pick in aim.q_pick[:2]:
-            reach = find_reach(work, pair, aim, q_pick, direct)
-            if isinstance(reach, Carry):
-                report.attempts.append(Attempt(name, reach.stage, reach.reason))
-                continue
-            report.add("approached", 1)
-            reaches.append((name, reach))
-            carry = carry_through(work, reach, direct)
-            report.attempts.append(Attempt(name, carry.stage, carry.reason))
-            if carry.stage == "done":
-                return _planned(report, name, carry)
+            carry = tries.reach(_Try(describe(pair, aim), pair, aim, q_pick), direct)
+            if carry is not None:
+                return carry
     for round_ in range(1, len(options.sampling_rounds)):
         direct = _with_budget(options, round_)
-        for name, reach in reaches:
-            _respect(stop_at)
-            carry = carry_through(work, reach, direct)
-            report.attempts.append(Attempt(name, carry.stage, carry.reason))
-            if carry.stage == "done":
-                return _planned(report, name, carry)
+        carry = tries.again(direct, options.most_by_arm, stop_at)
+        if carry is not None:
+            return carry
     report.status = "failed"
     part = scene.cell.parts[scene.part]
     report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     return None
+
+
+@dataclass(frozen=True)
+class _Try:
+    """One grasp, and the arm's configuration in it."""
+
+    name: str
+    pair: _core.RankedPair
+    aim: _core.GraspPose
+    q_pick: np.ndarray
+
+
+@dataclass
+class _Tries:
+    """What came of the grasps of one goal so far."""
+
+    work: Workspace
+    report: GoalReport
+    reaches: list[tuple[str, Reach]] = field(default_factory=list)
+    fallen: list[_Try] = field(default_factory=list)
+
+    def reach(self, attempt: _Try, direct: DirectOptions) -> Carry | None:
+        """Steps 4 to 6; a Carry if all of them were planned."""
+        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        if isinstance(reach, Carry):
+            self.report.attempts.append(Attempt(attempt.name, reach.stage, reach.reason))
+            self.fallen.append(attempt)
+            return None
+        self.report.add("approached", 1)
+        self.reaches.append((attempt.name, reach))
+        return self.carry(attempt.name, reach, direct)
+
+    def carry(self, name: str, reach: Reach, direct: DirectOptions) -> Carry | None:
+        """Steps 5 and 6; a Carry if they were planned."""
+        carry = carry_through(self.work, reach, direct)
+        self.report.attempts.append(Attempt(name, carry.stage, carry.reason))
+        return _planned(self.report, name, carry) if carry.stage == "done" else None
+
+    def again(self, direct: DirectOptions, most_by_arm: int, stop_at: float | None) -> Carry | None:
+        """All reaches with a greater budget, then what fell near obstacles, by the whole arm."""
+        for name, reach in list(self.reaches):
+            _respect(stop_at)
+            carry = self.carry(name, reach, direct)
+            if carry is not None:
+                return carry
+        fallen, self.fallen = self.fallen, []
+        for attempt in fallen[:most_by_arm]:
+            _respect(stop_at)
+            carry = self.reach(attempt, direct)
+            if carry is not None:
+                return carry
+        return None
 
 
 def _unstable(work: Workspace) -> str:
@@ -273,7 +315,12 @@ def _with_budget(options: PlanOptions, round_: int) -> DirectOptions:
         # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
         gross.search = _core.SearchOptions(max_proofs=5 * iterations)
         gross.separation = _core.SeparationOptions(most_cells=0)
-    return replace(options.direct, gross=gross)
+    arm = None
+    if round_ > 0:
+        arm = WayOutOptions(
+            sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations)
+        )
+    return replace(options.direct, gross=gross, arm=arm)
 
 
 def _planned(report: GoalReport, name: str, carry: Carry) -> Carry:

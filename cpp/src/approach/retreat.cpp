@@ -181,9 +181,6 @@ RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear
       break;
     }
     points.push_back(next);
-    ends_in_room =
-        options.room > 0.0 && at[i] >= options.least - 1e-9 && has_room(prover, next, options.room);
-    if (ends_in_room) break;
   }
   CertifiedPath proved = certified_path(clear, points, options.certificate);
   if (proved.reached + 1 < points.size()) stop = describe(proved.obstacle.hit);

@@ -1,6 +1,7 @@
 // Lifting a block off a table, drawing the hand back, and what stops either.
 #include "handey/approach/retreat.hpp"
 
+#include "handey/collision/box_certificate.hpp"
 #include "handey/errors.hpp"
 #include "puma_scene.hpp"
 
@@ -90,12 +91,13 @@ TEST(PlanRetreat, StopsUnderABarAndNamesIt) {
   Cell cell = block_on_table({box("bar", {0.3, 0.006, 0.02}, at(0.5, 0.25, 0.095))});
   cell.parts[0].shapes[0].geometry = Box{{0.04, 0.12, 0.05}};
   HeldBlock block(cell);
-  const RetreatResult result = block.retreat(kUp);
+  RetreatOptions options;
+  options.room = 0.0;
+  const RetreatResult result = block.retreat(kUp, options);
   EXPECT_TRUE(result.found);
   EXPECT_NEAR(result.travelled, 0.0315, 1e-9);  // 35 mm of room
   EXPECT_NE(result.reason.find("bar"), std::string::npos) << result.reason;
   expect_free(block.clear, {result.path.begin() + 1, result.path.end()});
-  RetreatOptions options;
   options.least = 0.05;
   const RetreatResult short_of = block.retreat(kUp, options);
   EXPECT_FALSE(short_of.found);
@@ -127,6 +129,27 @@ TEST(PlanRetreat, DrawsTheOpenHandBackFromTheBlock) {
   ASSERT_TRUE(result.found) << result.reason;
   EXPECT_EQ(result.travelled, 0.1);
   expect_free(clear, result.path);
+}
+
+TEST(PlanRetreat, EndsWhereTheGrossMotionStartsInAFreeCell) {
+  Cell cell = block_on_table({box("bar", {0.3, 0.006, 0.02}, at(0.5, 0.25, 0.095))});
+  cell.parts[0].shapes[0].geometry = Box{{0.04, 0.12, 0.05}};
+  HeldBlock block(cell);
+  RetreatOptions options;
+  options.least = 0.01;
+  options.step = 0.004;
+  options.room = 0.0;
+  const RetreatResult farthest = block.retreat(kUp, options);
+  options.room = 0.004;
+  const RetreatResult result = block.retreat(kUp, options);
+  ASSERT_TRUE(farthest.found && result.found) << result.reason;
+  EXPECT_LT(result.travelled, farthest.travelled);  // which ends close under the bar
+  EXPECT_EQ(result.reason, farthest.reason);
+  EXPECT_TRUE(certify_path(block.clear, {result.path.begin() + 1, result.path.end()}).is_free());
+  Eigen::VectorXd half = Eigen::VectorXd::Zero(6);
+  half.head<3>().setConstant(options.room);
+  EXPECT_TRUE(BoxProver(block.clear).prove({result.path.back(), half}).free);
+  EXPECT_FALSE(BoxProver(block.clear).prove({farthest.path.back(), half}).free);
 }
 
 TEST(PlanRetreat, SaysWhereTheArmReachesNoFarther) {
