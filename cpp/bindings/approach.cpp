@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "configurations.hpp"
+#include "handey/approach/clearance_path.hpp"
 
 namespace handey::bindings {
 namespace {
@@ -156,22 +157,24 @@ Raises:
 void bind_slide(py::module_& m) {
   const QuasipotentialOptions defaults;
   py::class_<QuasipotentialOptions>(m, "QuasipotentialOptions", "Options of slide_to_target.")
-      .def(
-          py::init([](double clearance, int max_iterations, int progress_interval,
-                      double torque_gain) {
-            return QuasipotentialOptions{clearance, max_iterations, progress_interval, torque_gain};
-          }),
-          py::kw_only(), "clearance"_a = defaults.clearance,
-          "max_iterations"_a = defaults.max_iterations,
-          "progress_interval"_a = defaults.progress_interval,
-          "torque_gain"_a = defaults.torque_gain)
+      .def(py::init([](double clearance, int max_iterations, int progress_interval,
+                       double torque_gain, double lead) {
+             return QuasipotentialOptions{clearance, max_iterations, progress_interval, torque_gain,
+                                          lead};
+           }),
+           py::kw_only(), "clearance"_a = defaults.clearance,
+           "max_iterations"_a = defaults.max_iterations,
+           "progress_interval"_a = defaults.progress_interval,
+           "torque_gain"_a = defaults.torque_gain, "lead"_a = defaults.lead)
       .def_readwrite("clearance", &QuasipotentialOptions::clearance,
                      "Bump-line distance from the gripper, at least 1.5 cells [m].")
       .def_readwrite("max_iterations", &QuasipotentialOptions::max_iterations)
       .def_readwrite("progress_interval", &QuasipotentialOptions::progress_interval,
                      "Iterations between two looks at the progress.")
       .def_readwrite("torque_gain", &QuasipotentialOptions::torque_gain,
-                     "Turn per torque, before the one-cell limit [rad/m].");
+                     "Turn per torque, before the one-cell limit [rad/m].")
+      .def_readwrite("lead", &QuasipotentialOptions::lead,
+                     "The attraction point of slide_along moves so far ahead [m].");
   py::enum_<SlideStatus>(m, "SlideStatus", "How a slide ended.")
       .value("Reached", SlideStatus::Reached)
       .value("Stalled", SlideStatus::Stalled)
@@ -183,20 +186,22 @@ void bind_slide(py::module_& m) {
                     "List of PlanarPose; ends on the target, or where it came nearest.")
       .def_readonly("iterations", &SlideResult::iterations)
       .def_readonly("refusals", &SlideResult::refusals, "Steps that the reach test refused.");
+  // Called back with the GIL held; what it raises is raised here.
+  const auto reach_test = [](const py::object& reachable) {
+    if (!reachable.is_none() && !PyCallable_Check(reachable.ptr())) {
+      throw py::type_error("reachable must be a callable or None");
+    }
+    return ReachTest([reachable](const PlanarPose& pose) {
+      return reachable.is_none() || py::bool_(reachable(pose)).cast<bool>();
+    });
+  };
   m.def(
       "slide_to_target",
-      [](const MotionGrid& grid, const GripperOutline& outline, const PlanarPose& start,
-         const py::object& target, const py::object& reachable,
-         const QuasipotentialOptions& options) {
-        if (!reachable.is_none() && !PyCallable_Check(reachable.ptr())) {
-          throw py::type_error("reachable must be a callable or None");
-        }
-        // Called back with the GIL held; what it raises is raised here.
-        const ReachTest test = [&reachable](const PlanarPose& pose) {
-          return reachable.is_none() || py::bool_(reachable(pose)).cast<bool>();
-        };
-        return slide_to_target(grid, outline, start, real_vector<2>(target, "target"), test,
-                               options);
+      [reach_test](const MotionGrid& grid, const GripperOutline& outline, const PlanarPose& start,
+                   const py::object& target, const py::object& reachable,
+                   const QuasipotentialOptions& options) {
+        return slide_to_target(grid, outline, start, real_vector<2>(target, "target"),
+                               reach_test(reachable), options);
       },
       "grid"_a, "outline"_a, "start"_a, "target"_a, "reachable"_a = py::none(),
       "options"_a = defaults,
@@ -220,6 +225,65 @@ Returns:
 Raises:
     InvalidInput: if start or target lie outside the grid, layers and pieces differ in number, or an
         option is out of range.
+)");
+  m.def(
+      "slide_along",
+      [reach_test](const MotionGrid& grid, const GripperOutline& outline, const PlanarPose& start,
+                   const py::object& route, const py::object& reachable,
+                   const QuasipotentialOptions& options) {
+        return slide_along(grid, outline, start, real_rows<2>(route, "route"),
+                           reach_test(reachable), options);
+      },
+      "grid"_a, "outline"_a, "start"_a, "route"_a, "reachable"_a = py::none(),
+      "options"_a = defaults,
+      R"(Slide the gripper with an attraction point that moves along a route.
+
+As slide_to_target; clearance_path gives good routes.
+
+Args:
+    grid: MotionGrid with one layer for each piece of the outline.
+    outline: GripperOutline.
+    start: PlanarPose.
+    route: (n, 2) points on the grid, the last one the target [m].
+    reachable: as of slide_to_target.
+    options: QuasipotentialOptions; `lead` tells how far ahead the attraction point is.
+
+Returns:
+    SlideResult.
+
+Raises:
+    InvalidInput: as slide_to_target.
+)");
+}
+
+void bind_clearance_path(py::module_& m) {
+  py::class_<ClearancePath>(m, "ClearancePath",
+                            "The way of greatest clearance to a target; true if there is one.")
+      .def_property_readonly(
+          "points", [](const ClearancePath& path) { return rows_of<2>(path.points); },
+          "(n, 2) from the border to the target [m].")
+      .def_readonly("clearance", &ClearancePath::clearance,
+                    "The least on the way, but for its last three cells [m].")
+      .def_readonly("whole_hand", &ClearancePath::whole_hand,
+                    "False: found for the finger tips alone.")
+      .def("__bool__", &ClearancePath::found);
+  m.def("clearance_path", &clearance_path, "grid"_a, "outline"_a, "target"_a, "exit"_a,
+        "enough"_a = 0.02,
+        R"(The way of greatest clearance for the hand that keeps its direction.
+
+Args:
+    grid: MotionGrid with one layer for each piece of the outline.
+    outline: GripperOutline.
+    target: PlanarPose.
+    exit: the way begins that far from the target [m].
+    enough: more clearance is worth nothing [m].
+
+Returns:
+    ClearancePath; where the whole hand has none, that of its finger tips.
+
+Raises:
+    InvalidInput: for layers and pieces that differ in number, a target off the grid, lengths that
+        are not positive or more than 2 m.
 )");
 }
 
@@ -394,6 +458,7 @@ void bind_approach(py::module_& m) {
   bind_grid(m);
   bind_bump_lines(m);
   bind_slide(m);
+  bind_clearance_path(m);
   bind_plane_search(m);
   bind_plan_approach(m);
   bind_retreat(m);

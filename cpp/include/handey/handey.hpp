@@ -37,9 +37,10 @@
 // approach
 #include "handey/approach/approach.hpp"
 #include "handey/approach/bump_lines.hpp"
+#include "handey/approach/clearance_path.hpp"
 #include "handey/approach/grid.hpp"
-#include "handey/approach/quasipotential.hpp"
 #include "handey/approach/plane_search.hpp"
+#include "handey/approach/quasipotential.hpp"
 #include "handey/approach/retreat.hpp"
 // cspace
 #include "handey/cspace/arm_table.hpp"

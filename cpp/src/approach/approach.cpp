@@ -2,6 +2,7 @@
 // of the grasp plane.
 #include "handey/approach/approach.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -93,6 +94,25 @@ ApproachResult plan(const ApproachTask& task) {
   return is_long ? straight_result(task, straight) : slide;
 }
 
+/// The same grasp with the hand less open, where that is legal too, next wider first.
+std::vector<GraspPose> less_open(const GraspScene& scene, const SphericalWristSolver& solver,
+                                 const RankedPair& pair, const GraspPose& aim,
+                                 const ApproachOptions& options) {
+  std::vector<GraspPose> result;
+  LegalityOptions legality = options.legality;
+  legality.least_contact_share = 0.0;  // the aim has enough
+  double opening = aim.opening;
+  for (int halvings = 1; halvings <= 2; ++halvings) {
+    legality.open_clearance = 0.5 * std::ldexp(aim.opening - aim.width, -halvings);
+    const LegalGrasps legal =
+        test_grasp_pose(scene, solver, pair, aim.in_plane, aim.flipped, legality);
+    if (legal.poses.empty() || legal.poses.front().opening > opening - 1e-4) continue;
+    opening = legal.poses.front().opening;
+    result.push_back(legal.poses.front());
+  }
+  return result;
+}
+
 }  // namespace
 
 ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver& solver,
@@ -100,8 +120,20 @@ ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver
                              const Eigen::VectorXd& q_pick, const ApproachOptions& options) {
   require_valid(scene, aim, q_pick, options);
   const Pose X_WG = scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB * pair.pair.X_PG;
-  return plan({scene, solver, pair, aim, q_pick, options, X_WG,
-               gripper_outline(*scene.cell.robot, aim.opening, aim.flipped)});
+  const auto with = [&](const GraspPose& grasp, const ApproachOptions& budget) {
+    return plan({scene, solver, pair, grasp, q_pick, budget, X_WG,
+                 gripper_outline(*scene.cell.robot, grasp.opening, grasp.flipped)});
+  };
+  ApproachResult result = with(aim, options);
+  if (result.found() || options.destination_obstacles_join) return result;
+  ApproachOptions brief = options;
+  brief.search_levels = std::min(options.search_levels, 1);
+  for (const GraspPose& grasp : less_open(scene, solver, pair, aim, options)) {
+    if (!same_configuration(grasp.q_pick, q_pick)) continue;
+    ApproachResult narrow = with(grasp, brief);
+    if (narrow.found()) return narrow;
+  }
+  return result;
 }
 
 }  // namespace handey

@@ -101,13 +101,9 @@ SearchedWay HandSearch::way_from(const LatticePoint& start, const Eigen::VectorX
     const PlaneSearchResult found = plane_.find_way_out(start, may_step);
     if (!found.found()) {
       way.reason = explain(found);
-      const LatticePoint& end = found.path.back();
-      const PlanarPose from = pose(start), to = pose(end);
-      way.is_short = std::hypot(to.x - from.x, to.y - from.y) >= options_.least_run_in - 1e-9;
-      if (!way.is_short || certify(found, way)) return way;
-    } else if (certify(found, way)) {
       return way;
     }
+    if (certify(found, way)) return way;
   }
   way.reason =
       std::to_string(kMostRounds) + " ways out were not proved free, the last: " + refusal_;

@@ -3,7 +3,6 @@
 // proved free is forbidden and the search goes on, a bounded number of times.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,7 +17,6 @@ namespace handey {
 /// A certified way in, or why there is none.
 struct SearchedWay {
   bool found = false;
-  bool is_short = false;            ///< ends before the exit, where the search came farthest
   std::vector<Configuration> path;  ///< from the start to the grasp
   std::vector<PlanarPose> poses;    ///< of the hand in G, likewise; before the path was shortened
   std::string reason;

@@ -12,6 +12,19 @@ namespace {
 // off.
 constexpr int kLevels = 3;
 
+/// What of a route lies beyond its point nearest to the pose.
+std::vector<Eigen::Vector2d> ahead_of(const PlanarPose& pose,
+                                      const std::vector<Eigen::Vector2d>& route) {
+  const auto distance = [&](const Eigen::Vector2d& point) {
+    return (point - Eigen::Vector2d(pose.x, pose.y)).squaredNorm();
+  };
+  const auto nearest = std::min_element(route.begin(), route.end(),
+                                        [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+                                          return distance(a) < distance(b);
+                                        });
+  return {nearest, route.end()};
+}
+
 }  // namespace
 
 HandSlider::HandSlider(const GripperOutline& outline, const ObstacleLayers& obstacles,
@@ -35,13 +48,14 @@ bool HandSlider::is_at_aim(const PlanarPose& pose) const {
          std::abs(std::remainder(pose.theta - aim_.theta, 2.0 * std::acos(-1.0))) < 1e-12;
 }
 
-HandSlide HandSlider::run(const PlanarPose& start, const Eigen::VectorXd& q_start) {
+HandSlide HandSlider::run(const PlanarPose& start, const Eigen::VectorXd& q_start,
+                          const std::vector<Eigen::Vector2d>& route) {
   HandSlide way;
   way.slide.path.push_back(start);
   way.slide.status = SlideStatus::StartBlocked;
   way.q.push_back(q_start);
   for (int level = 0; level < kLevels; ++level) {
-    slide(level, way);
+    slide(level, route, way);
     way.at_aim = is_at_aim(way.slide.path.back());
     // Obstacles at the destination are known to the grids only.
     if (!way.at_aim && !options_.destination_obstacles_join) close_in(way);
@@ -50,7 +64,7 @@ HandSlide HandSlider::run(const PlanarPose& start, const Eigen::VectorXd& q_star
   return way;
 }
 
-void HandSlider::slide(int level, HandSlide& so_far) {
+void HandSlider::slide(int level, const std::vector<Eigen::Vector2d>& route, HandSlide& so_far) {
   QuasipotentialOptions options = options_.slide;
   options.clearance = std::ldexp(options.clearance, -level);
   std::vector<Eigen::VectorXd> q{so_far.q.back()};
@@ -70,7 +84,7 @@ void HandSlider::slide(int level, HandSlide& so_far) {
   };
   const PlanarPose start = so_far.slide.path.back();
   const SlideResult slide =
-      slide_to_target(grid(level), outline_, start, {aim_.x, aim_.y}, reachable, options);
+      slide_along(grid(level), outline_, start, ahead_of(start, route), reachable, options);
   so_far.slide.iterations += slide.iterations;
   so_far.slide.refusals += slide.refusals;
   if (slide.status == SlideStatus::StartBlocked) return;  // too near for this grid

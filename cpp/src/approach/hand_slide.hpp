@@ -28,11 +28,15 @@ class HandSlider {
              const PlanarPose& aim, const ApproachOptions& options);
 
   /// @param q_start  the arm at `start`, free
-  HandSlide run(const PlanarPose& start, const Eigen::VectorXd& q_start);
+  /// @param route  the attraction point moves along it; it ends at the aim
+  HandSlide run(const PlanarPose& start, const Eigen::VectorXd& q_start,
+                const std::vector<Eigen::Vector2d>& route);
+  /// The coarsest grid, drawn when first needed.
+  const MotionGrid& grid() { return grid(0); }
 
  private:
   const MotionGrid& grid(int level);
-  void slide(int level, HandSlide& so_far);
+  void slide(int level, const std::vector<Eigen::Vector2d>& route, HandSlide& so_far);
   void close_in(HandSlide& so_far);
   bool is_at_aim(const PlanarPose& pose) const;
 

@@ -5,13 +5,13 @@
 // against moving to and fro.
 #include "handey/approach/quasipotential.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <string>
 
+#include "hand_on_grid.hpp"
 #include "handey/errors.hpp"
 
 namespace handey {
@@ -27,47 +27,49 @@ constexpr double kMostBackward = -0.5;
 constexpr std::size_t kMemory = 8;
 constexpr double kSamePose = 0.05;  // cells; nearer poses are the same
 
-Eigen::Vector2d turned(const PlanarPose& pose, const Eigen::Vector2d& in_hand) {
-  const double c = std::cos(pose.theta), s = std::sin(pose.theta);
-  return {c * in_hand.x() - s * in_hand.y(), s * in_hand.x() + c * in_hand.y()};
-}
-
-Eigen::Vector2d placed(const PlanarPose& pose, const Eigen::Vector2d& in_hand) {
-  return Eigen::Vector2d(pose.x, pose.y) + turned(pose, in_hand);
-}
-
 void require_range(bool good, const std::string& message) {
   if (!good) throw InvalidInput("E_RANGE", "slide_to_target", message);
 }
 
 void require_valid(const MotionGrid& grid, const GripperOutline& outline, const PlanarPose& start,
-                   const Eigen::Vector2d& target, const QuasipotentialOptions& options) {
-  if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.theta) ||
-      !target.allFinite() || !std::isfinite(options.torque_gain)) {
+                   const std::vector<Eigen::Vector2d>& route,
+                   const QuasipotentialOptions& options) {
+  const bool is_finite =
+      std::isfinite(start.x) && std::isfinite(start.y) && std::isfinite(start.theta) &&
+      std::isfinite(options.torque_gain) && std::isfinite(options.lead) &&
+      std::all_of(route.begin(), route.end(),
+                  [](const Eigen::Vector2d& point) { return point.allFinite(); });
+  if (!is_finite) {
     throw InvalidInput("E_NUMBER", "slide_to_target",
-                       "start, target and torque gain must be finite numbers");
+                       "start, target, lead and torque gain must be finite numbers");
   }
+  require_range(!route.empty(), "the route has no point");
   require_range(static_cast<std::size_t>(grid.layers()) == outline.pieces.size(),
                 "the grid has " + std::to_string(grid.layers()) + " layers, the gripper " +
                     std::to_string(outline.pieces.size()) +
                     " pieces; there must be one layer each");
   require_range(grid.is_inside({start.x, start.y}), "the start lies outside the grid");
-  require_range(grid.is_inside(target), "the target lies outside the grid");
+  for (const Eigen::Vector2d& point : route) {
+    require_range(grid.is_inside(point), "the target lies outside the grid");
+  }
   require_range(options.clearance >= 1.5 * grid.cell() * (1.0 - 1e-9),
                 "clearance " + std::to_string(options.clearance) +
                     " m must be at least 1.5 cells of " + std::to_string(grid.cell()) + " m");
   require_range(options.max_iterations >= 1 && options.progress_interval >= 1,
                 "max_iterations and progress_interval must be at least 1");
   require_range(options.torque_gain >= 0.0, "torque_gain must not be negative");
+  require_range(options.lead >= 0.0, "lead must not be negative");
 }
 
 class Slide {
  public:
-  Slide(const MotionGrid& grid, const GripperOutline& outline, const Eigen::Vector2d& target,
-        const ReachTest& reachable, const QuasipotentialOptions& options)
+  Slide(const MotionGrid& grid, const GripperOutline& outline,
+        const std::vector<Eigen::Vector2d>& route, const ReachTest& reachable,
+        const QuasipotentialOptions& options)
       : grid_(grid),
         outline_(outline),
-        target_(target),
+        route_(route),
+        target_(route.back()),
         reachable_(reachable),
         options_(options),
         lines_(bump_lines(outline, options.clearance)) {
@@ -87,8 +89,9 @@ class Slide {
   double distance(const PlanarPose& pose) const {
     return (target_ - Eigen::Vector2d(pose.x, pose.y)).norm();
   }
-  bool touches_filled(const PlanarPose& pose) const;
-  bool covers_filled(const PlanarPose& pose) const;
+  const Eigen::Vector2d& attraction() const { return route_[ahead_]; }
+  void move_attraction(const PlanarPose& pose);
+  double way_left(const PlanarPose& pose) const;
   std::vector<bool> touching_lines(const PlanarPose& pose) const;
   double torque(const std::vector<bool>& touching) const;
   std::vector<Eigen::Vector2d> directions(const PlanarPose& pose,
@@ -101,6 +104,8 @@ class Slide {
 
   const MotionGrid& grid_;
   const GripperOutline& outline_;
+  const std::vector<Eigen::Vector2d>& route_;
+  std::size_t ahead_ = 0;  // the point of the route that attracts
   const Eigen::Vector2d target_;
   const ReachTest& reachable_;
   const QuasipotentialOptions& options_;
@@ -110,46 +115,18 @@ class Slide {
   SlideResult result_;
 };
 
-bool Slide::touches_filled(const PlanarPose& pose) const {
-  for (std::size_t layer = 0; layer < outline_.pieces.size(); ++layer) {
-    const Polygon& polygon = outline_.pieces[layer].polygon;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      if (grid_.touches(static_cast<int>(layer), placed(pose, polygon[i]),
-                        placed(pose, polygon[(i + 1) % polygon.size()]))) {
-        return true;
-      }
-    }
-  }
-  return false;
+void Slide::move_attraction(const PlanarPose& pose) {
+  const Eigen::Vector2d here(pose.x, pose.y);
+  while (ahead_ + 1 < route_.size() && (attraction() - here).norm() < options_.lead) ++ahead_;
 }
 
-// An obstacle wholly inside a piece meets none of its edges. Asked at the start only: later none
-// can come in, because nothing moves more than a cell at a time.
-bool Slide::covers_filled(const PlanarPose& pose) const {
-  const Eigen::Vector2d corner =
-      grid_.centre() - Eigen::Vector2d::Constant(0.5 * grid_.side() * grid_.cell());
-  for (std::size_t layer = 0; layer < outline_.pieces.size(); ++layer) {
-    Region piece;
-    piece.loops.push_back(outline_.pieces[layer].polygon);
-    for (Eigen::Vector2d& point : piece.loops.front()) point = placed(pose, point);
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& point : piece.loops.front()) box.extend(point);
-    const auto cell_at = [&](double x, double low) {
-      return static_cast<int>(
-          std::clamp(std::floor((x - low) / grid_.cell()), 0.0, grid_.side() - 1.0));
-    };
-    for (int row = cell_at(box.min().y(), corner.y()); row <= cell_at(box.max().y(), corner.y());
-         ++row) {
-      for (int column = cell_at(box.min().x(), corner.x());
-           column <= cell_at(box.max().x(), corner.x()); ++column) {
-        if (!grid_.is_filled(static_cast<int>(layer), column, row)) continue;
-        const Eigen::Vector2d centre =
-            corner + grid_.cell() * Eigen::Vector2d(column + 0.5, row + 0.5);
-        if (contains(piece, centre)) return true;
-      }
-    }
+/// To the attraction point, and from there along the route.
+double Slide::way_left(const PlanarPose& pose) const {
+  double left = (attraction() - Eigen::Vector2d(pose.x, pose.y)).norm();
+  for (std::size_t i = ahead_; i + 1 < route_.size(); ++i) {
+    left += (route_[i + 1] - route_[i]).norm();
   }
-  return false;
+  return left;
 }
 
 std::vector<bool> Slide::touching_lines(const PlanarPose& pose) const {
@@ -176,7 +153,7 @@ double Slide::torque(const std::vector<bool>& touching) const {
 /// The goal vector if it is allowed, then the remaining bump vectors, nearest to it first.
 std::vector<Eigen::Vector2d> Slide::directions(const PlanarPose& pose,
                                                const std::vector<bool>& touching) const {
-  const Eigen::Vector2d goal = (target_ - Eigen::Vector2d(pose.x, pose.y)).normalized();
+  const Eigen::Vector2d goal = (attraction() - Eigen::Vector2d(pose.x, pose.y)).normalized();
   const auto is_allowed = [&](const Eigen::Vector2d& direction) {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (touching[i] && turned(pose, lines_[i].normal).dot(direction) > kComponent) return false;
@@ -207,7 +184,7 @@ std::vector<Slide::Motion> Slide::motions(const PlanarPose& pose,
   const double wanted = options_.torque_gain * torque(touching);
   const double most_alone = cell / radius_;  // a cell at the farthest point
   const double turn = std::clamp(wanted, -0.5 * most_alone, 0.5 * most_alone);
-  const Eigen::Vector2d to_target = target_ - Eigen::Vector2d(pose.x, pose.y);
+  const Eigen::Vector2d to_target = attraction() - Eigen::Vector2d(pose.x, pose.y);
   std::vector<Motion> result;
   for (const Eigen::Vector2d& direction : directions(pose, touching)) {
     const auto length = [&](double most) {  // not past the point nearest to the target
@@ -247,7 +224,7 @@ bool Slide::step(PlanarPose& pose, const std::vector<bool>& touching) {
   for (const Motion& motion : motions(pose, touching)) {
     const PlanarPose next = moved(pose, motion);
     const bool arrives = distance(next) == 0.0;
-    if ((!arrives && was_there(next)) || touches_filled(next)) continue;
+    if ((!arrives && was_there(next)) || touches_filled(grid_, outline_, next)) continue;
     if (!reachable_(next)) {
       ++result_.refusals;
       continue;
@@ -272,13 +249,14 @@ void Slide::end_where_nearest() {
 
 SlideResult Slide::run(const PlanarPose& start) {
   PlanarPose pose = start;
-  if (touches_filled(start) || covers_filled(start) || !reachable_(start)) {
+  if (touches_filled(grid_, outline_, start) || covers_filled(grid_, outline_, start) ||
+      !reachable_(start)) {
     result_.status = SlideStatus::StartBlocked;
     return result_;
   }
   result_.path.push_back(start);
   memory_.push_back(start);
-  double distance_before = std::numeric_limits<double>::infinity();
+  double left_before = std::numeric_limits<double>::infinity();
   std::ptrdiff_t touching_before = 0;
   result_.status = SlideStatus::IterationLimit;
   while (result_.iterations < options_.max_iterations) {
@@ -286,14 +264,16 @@ SlideResult Slide::run(const PlanarPose& start) {
       result_.status = SlideStatus::Reached;
       return result_;
     }
+    move_attraction(pose);
+    move_attraction(pose);
     const std::vector<bool> touching = touching_lines(pose);
     if (result_.iterations % options_.progress_interval == 0) {
       const std::ptrdiff_t count = std::count(touching.begin(), touching.end(), true);
-      if (distance(pose) > distance_before - grid_.cell() && count >= touching_before) {
+      if (way_left(pose) > left_before - grid_.cell() && count >= touching_before) {
         result_.status = SlideStatus::Stalled;
         break;
       }
-      distance_before = distance(pose);
+      left_before = way_left(pose);
       touching_before = count;
     }
     ++result_.iterations;
@@ -314,11 +294,17 @@ SlideResult Slide::run(const PlanarPose& start) {
 SlideResult slide_to_target(const MotionGrid& grid, const GripperOutline& outline,
                             const PlanarPose& start, const Eigen::Vector2d& target,
                             const ReachTest& reachable, const QuasipotentialOptions& options) {
-  require_valid(grid, outline, start, target, options);
+  return slide_along(grid, outline, start, {target}, reachable, options);
+}
+
+SlideResult slide_along(const MotionGrid& grid, const GripperOutline& outline,
+                        const PlanarPose& start, const std::vector<Eigen::Vector2d>& route,
+                        const ReachTest& reachable, const QuasipotentialOptions& options) {
+  require_valid(grid, outline, start, route, options);
   if (!reachable) {
     throw InvalidInput("E_VALUE", "slide_to_target", "there must be a reach test");
   }
-  return Slide(grid, outline, target, reachable, options).run(start);
+  return Slide(grid, outline, route, reachable, options).run(start);
 }
 
 }  // namespace handey

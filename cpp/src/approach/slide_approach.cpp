@@ -10,6 +10,7 @@
 #include <string>
 
 #include "certified_path.hpp"
+#include "handey/approach/clearance_path.hpp"
 #include "reason.hpp"
 
 namespace handey {
@@ -31,10 +32,30 @@ SlideApproach::SlideApproach(const ApproachTask& task, HandReach& reach)
                  {task.aim.in_plane.x, task.aim.in_plane.y}, task.half_size(),
                  task.options.destination_obstacles_join),
       reach_(reach),
-      slider_(task.outline, obstacles_, reach, task.aim.in_plane, task.options) {}
+      slider_(task.outline, obstacles_, reach, task.aim.in_plane, task.options),
+      least_distance_(std::numeric_limits<double>::infinity()) {
+  nearest_.status = ApproachStatus::StartBlocked;
+  nearest_.planner = ApproachPlanner::Quasipotential;
+}
+
+/// Where the way of greatest clearance begins; the hand turned as in the grasp, or, where that way
+/// is the finger tips' alone, along it.
+std::optional<SlideApproach::Start> SlideApproach::widest_start() {
+  const PlanarPose& aim = task_.aim.in_plane;
+  ClearancePath way = clearance_path(slider_.grid(), task_.outline, aim, task_.options.run_in);
+  if (!way.found()) return std::nullopt;
+  const Eigen::Vector2d& first = way.points.front();
+  double theta = aim.theta;
+  if (!way.whole_hand) {
+    const Eigen::Vector2d along = way.points[way.points.size() / 2] - first;
+    if (along.norm() > 0.0) theta = std::atan2(along.y(), along.x());
+  }
+  const PlanarPose start{first.x(), first.y(), theta};
+  return Start{start, std::move(way.points)};
+}
 
 /// Straight back first, shorter, then turned.
-std::vector<PlanarPose> SlideApproach::starts() const {
+std::vector<SlideApproach::Start> SlideApproach::turned_starts() const {
   const PlanarPose& aim = task_.aim.in_plane;
   const ApproachOptions& options = task_.options;
   std::vector<double> distances{options.run_in};
@@ -42,12 +63,13 @@ std::vector<PlanarPose> SlideApproach::starts() const {
     distances.push_back(0.5 * (options.run_in + options.least_run_in));
     distances.push_back(options.least_run_in);
   }
-  std::vector<PlanarPose> result;
+  std::vector<Start> result;
   for (const double turn : kTurnsDeg) {
     const double theta = aim.theta + turn * kPi / 180.0;
     for (const double distance : distances) {
-      result.push_back(
-          {aim.x - distance * std::cos(theta), aim.y - distance * std::sin(theta), theta});
+      const PlanarPose pose{aim.x - distance * std::cos(theta), aim.y - distance * std::sin(theta),
+                            theta};
+      result.push_back({pose, {{aim.x, aim.y}}});
     }
   }
   return result;
@@ -127,47 +149,50 @@ void SlideApproach::certify(const HandSlide& way, ApproachResult& result) {
   result.status = ApproachStatus::Found;
 }
 
-ApproachResult SlideApproach::slide_from(const PlanarPose& start, const Eigen::VectorXd& q_start) {
+ApproachResult SlideApproach::slide_from(const Start& start, const Eigen::VectorXd& q_start) {
   ApproachResult result;
   result.planner = ApproachPlanner::Quasipotential;
-  HandSlide way = slider_.run(start, q_start);
+  HandSlide way = slider_.run(start.pose, q_start, start.route);
   if (settle_grasp(way, result)) certify(way, result);
   result.slide = std::move(way.slide);
   return result;
 }
 
+/// @return true if the slide came in: it is then the nearest
+bool SlideApproach::slide_in(const Start& start) {
+  const PlanarPose& aim = task_.aim.in_plane;
+  const std::optional<Eigen::VectorXd> q = reach_.lead(aim, start.pose, task_.q_pick);
+  if (!q || !reach_.follow_free(start.pose, *q)) {
+    if (blocked_++ == 0) blocked_by_ = reach_.reason();
+    return false;
+  }
+  ++slides_;
+  ApproachResult result = slide_from(start, *q);
+  const PlanarPose& end = result.slide.path.back();
+  const double distance = std::hypot(end.x - aim.x, end.y - aim.y);
+  const bool found = result.found();
+  if (found || distance < least_distance_) {
+    least_distance_ = distance;
+    nearest_ = std::move(result);
+  }
+  return found;
+}
+
 ApproachResult SlideApproach::run() {
-  ApproachResult nearest;
-  nearest.planner = ApproachPlanner::Quasipotential;
-  nearest.status = ApproachStatus::StartBlocked;
-  double least_distance = std::numeric_limits<double>::infinity();
-  int slides = 0, blocked = 0;
-  std::string blocked_by;
-  for (const PlanarPose& start : starts()) {
-    if (slides == task_.options.most_slides) break;
-    const std::optional<Eigen::VectorXd> q = reach_.lead(task_.aim.in_plane, start, task_.q_pick);
-    if (!q || !reach_.follow_free(start, *q)) {
-      if (blocked++ == 0) blocked_by = reach_.reason();
-      continue;
-    }
-    ++slides;
-    ApproachResult result = slide_from(start, *q);
-    if (result.found()) return result;
-    const PlanarPose& end = result.slide.path.back();
-    const double distance = std::hypot(end.x - task_.aim.in_plane.x, end.y - task_.aim.in_plane.y);
-    if (distance < least_distance) {
-      least_distance = distance;
-      nearest = std::move(result);
-    }
+  const std::optional<Start> widest = widest_start();
+  if (widest && slide_in(*widest)) return nearest_;
+  for (const Start& start : turned_starts()) {
+    if (slides_ >= task_.options.most_slides) break;
+    if (slide_in(start)) return nearest_;
   }
   const std::string blocked_text =
-      std::to_string(blocked) + " starts blocked" + (blocked > 0 ? " (" + blocked_by + ")" : "");
-  nearest.reason = slides == 0 ? "all " + blocked_text
-                               : nearest.reason + "; nearest of " + std::to_string(slides) +
-                                     " slides, " + blocked_text;
-  nearest.grasp = {};
-  nearest.path.clear();
-  return nearest;
+      std::to_string(blocked_) + " starts blocked" + (blocked_ > 0 ? " (" + blocked_by_ + ")" : "");
+  nearest_.reason = slides_ == 0 ? "all " + blocked_text
+                                 : nearest_.reason + "; nearest of " + std::to_string(slides_) +
+                                       " slides, " + blocked_text;
+  nearest_.grasp = {};
+  nearest_.path.clear();
+  return nearest_;
 }
 
 }  // namespace handey

@@ -3,6 +3,10 @@
 // grasp of its own.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "approach_task.hpp"
 #include "hand_slide.hpp"
 
@@ -16,8 +20,14 @@ class SlideApproach {
   ApproachResult run();
 
  private:
-  std::vector<PlanarPose> starts() const;
-  ApproachResult slide_from(const PlanarPose& start, const Eigen::VectorXd& q_start);
+  struct Start {
+    PlanarPose pose;
+    std::vector<Eigen::Vector2d> route;
+  };
+  std::optional<Start> widest_start();
+  std::vector<Start> turned_starts() const;
+  bool slide_in(const Start& start);
+  ApproachResult slide_from(const Start& start, const Eigen::VectorXd& q_start);
   bool settle_grasp(HandSlide& way, ApproachResult& result);
   bool test_stop(const HandSlide& way, ApproachResult& result);
   void certify(const HandSlide& way, ApproachResult& result);
@@ -26,6 +36,11 @@ class SlideApproach {
   const ObstacleLayers obstacles_;
   HandReach& reach_;
   HandSlider slider_;
+  // Of the slides so far:
+  ApproachResult nearest_;
+  double least_distance_;
+  int slides_ = 0, blocked_ = 0;
+  std::string blocked_by_;
 };
 
 /// The configuration of the list that is `q` to rounding, exactly as it is listed; null if none.

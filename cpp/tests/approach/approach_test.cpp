@@ -159,6 +159,77 @@ TEST(PlanApproach, StopsBeforeABarThatWasNotThereWhenTheGraspWasFoundAndNamesIt)
   EXPECT_GT(tried, 0);
 }
 
+/// Bars close over the palm of a hand that holds the block across y from above, and walls beside
+/// it: it must move along the block, past the bars' ends, before it can rise.
+Cell block_under_bars(double half_length) {
+  const Eigen::Vector3d bar(2.0 * half_length, 0.008, 0.006), wall(0.01, 0.2, 0.14);
+  return block_on_table(
+      {box("bar", bar, at(0.5, 0.256, 0.16)), box("other bar", bar, at(0.5, 0.144, 0.16)),
+       box("left", wall, at(0.395, 0.2, 0.07)), box("right", wall, at(0.605, 0.2, 0.07))});
+}
+
+std::vector<Aim> aims_from_above(const GraspScene& scene, const SphericalWristSolver& solver) {
+  LegalityOptions options;
+  options.most_poses = 100;
+  std::vector<Aim> result;
+  for (const RankedPair& pair : rank_grasps(scene.cell, scene.part, scene.X_WP_goal).ranked) {
+    for (const GraspPose& pose : find_legal_grasps(scene, solver, pair, options).poses) {
+      const Eigen::Matrix3d R_WH = (scene.cell.parts[0].X_WB * pose.X_PH).linear();
+      if (R_WH(2, 2) < -0.99 && std::abs(R_WH(1, 1)) > 0.99) result.push_back({pair, pose});
+    }
+  }
+  return result;
+}
+
+TEST(PlanApproach, SearchesWhereStraightIsShutAndSlidesStall) {
+  const GraspScene scene = scene_of(block_under_bars(0.03), at(0.5, -0.2, 0.025));
+  const SphericalWristSolver solver(*scene.cell.robot);
+  ApproachOptions lame;
+  lame.slide.max_iterations = 1;
+  int searched = 0;
+  for (const Aim& aim : aims_from_above(scene, solver)) {
+    const Eigen::VectorXd& q = aim.grasp.q_pick.front();
+    const ApproachResult result = plan_approach(scene, solver, aim.pair, aim.grasp, q);
+    if (result.found()) {
+      EXPECT_NE(result.planner, ApproachPlanner::Straight);
+      expect_good(scene, aim.pair, result);
+    }
+    const ApproachResult found = plan_approach(scene, solver, aim.pair, aim.grasp, q, lame);
+    if (found.planner != ApproachPlanner::PlaneSearch || !found.found()) continue;
+    ++searched;
+    expect_good(scene, aim.pair, found);
+    const PlanarPose& start = found.slide.path.front();
+    EXPECT_GE(std::hypot(start.x - found.grasp.in_plane.x, start.y - found.grasp.in_plane.y),
+              0.1 - 1e-9);
+    const ApproachResult again = plan_approach(scene, solver, aim.pair, aim.grasp, q, lame);
+    ASSERT_EQ(found.path.size(), again.path.size());
+    for (std::size_t i = 0; i < found.path.size(); ++i) {
+      EXPECT_EQ(found.path[i].q, again.path[i].q);
+    }
+    ApproachOptions without = lame;
+    without.search_levels = 0;
+    EXPECT_NE(plan_approach(scene, solver, aim.pair, aim.grasp, q, without).planner,
+              ApproachPlanner::PlaneSearch);
+  }
+  EXPECT_GT(searched, 0);
+}
+
+TEST(PlanApproach, SaysThatThereIsNoWayInThePlaneAndWhoIsRoundTheGrasp) {
+  // The bars reach from wall to wall.
+  const GraspScene scene = scene_of(block_under_bars(0.1), at(0.5, -0.2, 0.025));
+  const SphericalWristSolver solver(*scene.cell.robot);
+  const std::vector<Aim> all = aims_from_above(scene, solver);
+  ASSERT_FALSE(all.empty());
+  const Aim& aim = all.front();
+  const ApproachResult result =
+      plan_approach(scene, solver, aim.pair, aim.grasp, aim.grasp.q_pick.front());
+  EXPECT_FALSE(result.found());
+  EXPECT_EQ(result.planner, ApproachPlanner::PlaneSearch);
+  EXPECT_TRUE(result.path.empty());
+  EXPECT_NE(result.reason.find("no way out"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("bar"), std::string::npos) << result.reason;
+}
+
 TEST(PlanApproach, SaysSoWhereTheArmCanStandAtNoStart) {
   const GraspScene open = scene_of(block_on_table(), at(0.5, -0.2, 0.025));
   const SphericalWristSolver solver(*open.cell.robot);

@@ -29,8 +29,8 @@ struct ApproachOptions {
   bool destination_obstacles_join = false;  ///< article: obstacles moved by T^-1 stand in the way
                                             ///< of the approach too; then only slides are tried
   PlaneSearchOptions search;
-  int search_levels = 2;  ///< lattices searched where the slides stall, of `cell` and half of it in
-                          ///< turn; 0: no search
+  int search_levels = 1;  ///< lattices searched where the slides stall: of `cell`, then half of it,
+                          ///< at most 3; 0: no search. Each costs eight times the one before.
 };
 
 enum class ApproachStatus {

@@ -23,7 +23,7 @@ namespace handey {
 struct PlaneSearchOptions {
   int directions = 72;      ///< of the hand, evenly spaced: 5 degrees
   double close_cost = 4.0;  ///< a step to a point that is close costs so much more; at most 20
-  int most_tests = 4000;    ///< questions to the step test; then the status is TestLimit
+  int most_tests = 2000;    ///< questions to the step test; then the status is TestLimit
 };
 
 enum class PlaneSearchStatus {

@@ -16,6 +16,7 @@ struct QuasipotentialOptions {
   int max_iterations = 2000;   ///< then the status is IterationLimit
   int progress_interval = 20;  ///< iterations between two looks at the progress
   double torque_gain = 0.5;    ///< turn per torque, before the one-cell limit [rad/m]
+  double lead = 0.02;          ///< the attraction point of slide_along moves so far ahead [m]
 };
 
 enum class SlideStatus { Reached, Stalled, IterationLimit, StartBlocked };
@@ -44,5 +45,13 @@ using ReachTest = std::function<bool(const PlanarPose&)>;
 SlideResult slide_to_target(const MotionGrid& grid, const GripperOutline& outline,
                             const PlanarPose& start, const Eigen::Vector2d& target,
                             const ReachTest& reachable, const QuasipotentialOptions& options = {});
+
+/// The same with an attraction point that moves along a route (clearance_path gives good ones):
+/// always the first point of the route, from where it was before, that is `lead` away from the
+/// finger grasp point; in the end the last one, the target.
+/// @param route  points in G, the last one the target; at least one, all on the grid [m]
+SlideResult slide_along(const MotionGrid& grid, const GripperOutline& outline,
+                        const PlanarPose& start, const std::vector<Eigen::Vector2d>& route,
+                        const ReachTest& reachable, const QuasipotentialOptions& options = {});
 
 }  // namespace handey
