@@ -28,6 +28,7 @@ __all__: list[str] = [
     "Cell",
     "CellKind",
     "CertificateOptions",
+    "ClearancePath",
     "CollisionChecker",
     "CollisionModel",
     "Configuration",
@@ -128,6 +129,7 @@ __all__: list[str] = [
     "centre_of_mass",
     "certify_edge",
     "certify_path",
+    "clearance_path",
     "connected_components",
     "connected_parts",
     "contains_point",
@@ -179,6 +181,7 @@ __all__: list[str] = [
     "search_free_space",
     "shorten_path",
     "slab_projection",
+    "slide_along",
     "slide_to_target",
     "subtract",
     "tessellate",
@@ -1310,6 +1313,27 @@ class Hit:
     @property
     def distance(self) -> float: ...
 
+class ClearancePath:
+    """
+    The way of greatest clearance to a target; true if there is one.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def clearance(self) -> float:
+        """
+        The least on the way, but for its last three cells [m].
+        """
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+        """
+        (n, 2) from the border to the target [m].
+        """
+    @property
+    def whole_hand(self) -> bool:
+        """
+        False: found for the finger tips alone.
+        """
+
 class CollisionChecker:
     """
     Is the robot free of the cell and of itself?
@@ -2417,6 +2441,7 @@ class QuasipotentialOptions:
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 2000,
         progress_interval: typing.SupportsInt | typing.SupportsIndex = 20,
         torque_gain: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        lead: typing.SupportsFloat | typing.SupportsIndex = 0.02,
     ) -> None: ...
     @property
     def clearance(self) -> float:
@@ -2425,6 +2450,13 @@ class QuasipotentialOptions:
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def lead(self) -> float:
+        """
+        The attraction point of slide_along moves so far ahead [m].
+        """
+    @lead.setter
+    def lead(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max_iterations(self) -> int: ...
     @max_iterations.setter
@@ -2513,7 +2545,7 @@ class PlaneSearchOptions:
         *,
         directions: typing.SupportsInt | typing.SupportsIndex = 72,
         close_cost: typing.SupportsFloat | typing.SupportsIndex = 4.0,
-        most_tests: typing.SupportsInt | typing.SupportsIndex = 4000,
+        most_tests: typing.SupportsInt | typing.SupportsIndex = 2000,
     ) -> None: ...
     @property
     def close_cost(self) -> float:
@@ -2559,7 +2591,7 @@ class ApproachOptions:
         contact_share: typing.SupportsFloat | typing.SupportsIndex = 0.3,
         destination_obstacles_join: bool = False,
         search: PlaneSearchOptions = ...,
-        search_levels: typing.SupportsInt | typing.SupportsIndex = 2,
+        search_levels: typing.SupportsInt | typing.SupportsIndex = 1,
     ) -> None: ...
     @property
     def cell(self) -> float:
@@ -3829,6 +3861,31 @@ def centre_of_mass(body: Body) -> typing.Annotated[numpy.typing.NDArray[numpy.fl
     Centre of mass in the body frame, uniform density, (3,) [m].
     """
 
+def clearance_path(
+    grid: MotionGrid,
+    outline: GripperOutline,
+    target: PlanarPose,
+    exit: typing.SupportsFloat | typing.SupportsIndex,
+    enough: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+) -> ClearancePath:
+    """
+    The way of greatest clearance for the hand that keeps its direction.
+
+    Args:
+        grid: MotionGrid with one layer for each piece of the outline.
+        outline: GripperOutline.
+        target: PlanarPose.
+        exit: the way begins that far from the target [m].
+        enough: more clearance is worth nothing [m].
+
+    Returns:
+        ClearancePath; where the whole hand has none, that of its finger tips.
+
+    Raises:
+        InvalidInput: for layers and pieces that differ in number, a target off the grid, lengths that
+            are not positive or more than 2 m.
+    """
+
 def certify_edge(
     checker: CollisionChecker, a: Configuration, b: Configuration, options: CertificateOptions = ...
 ) -> EdgeResult:
@@ -4530,6 +4587,34 @@ def slab_projection(
 
     Returns:
         Region in x, y of G; contains the true projection to 1e-6 m.
+    """
+
+def slide_along(
+    grid: MotionGrid,
+    outline: GripperOutline,
+    start: PlanarPose,
+    route: typing.Any,
+    reachable: typing.Any = None,
+    options: QuasipotentialOptions = ...,
+) -> SlideResult:
+    """
+    Slide the gripper with an attraction point that moves along a route.
+
+    As slide_to_target; clearance_path gives good routes.
+
+    Args:
+        grid: MotionGrid with one layer for each piece of the outline.
+        outline: GripperOutline.
+        start: PlanarPose.
+        route: (n, 2) points on the grid, the last one the target [m].
+        reachable: as of slide_to_target.
+        options: QuasipotentialOptions; `lead` tells how far ahead the attraction point is.
+
+    Returns:
+        SlideResult.
+
+    Raises:
+        InvalidInput: as slide_to_target.
     """
 
 def slide_to_target(

@@ -90,8 +90,6 @@ std::vector<LatticePoint> SearchApproach::neighbours(const HandSearch& search) c
 }
 
 bool SearchApproach::try_neighbours(HandSearch& search, ApproachResult& result) {
-  LegalityOptions legality = task_.options.legality;
-  legality.least_contact_share = task_.options.contact_share;
   std::vector<LatticePoint> tried;
   for (const LatticePoint& point : neighbours(search)) {
     if (tried.size() == kMostNeighbours) break;
@@ -101,8 +99,9 @@ bool SearchApproach::try_neighbours(HandSearch& search, ApproachResult& result) 
     });
     if (near) continue;
     tried.push_back(point);
-    const LegalGrasps legal = test_grasp_pose(task_.scene, task_.solver, task_.pair,
-                                              search.pose(point), task_.aim.flipped, legality);
+    const PlanarPose pose = search.pose(point);
+    const LegalGrasps legal = test_grasp_pose(task_.scene, task_.solver, task_.pair, pose,
+                                              task_.aim.flipped, task_.legality_at(pose));
     if (legal.poses.empty()) continue;
     const GraspPose& grasp = legal.poses.front();
     if (std::abs(grasp.opening - task_.aim.opening) > 1e-9) continue;

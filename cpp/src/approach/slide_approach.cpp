@@ -92,10 +92,8 @@ bool SlideApproach::test_stop(const HandSlide& way, ApproachResult& result) {
       (short_by > 1e-9 ? "stopped " + millimetres(short_by) + " before the target"
                        : "arrived turned by " + degrees(turn) + " from the aim") +
       (way.reason.empty() ? "" : " (" + way.reason + ")");
-  LegalityOptions legality = task_.options.legality;
-  legality.least_contact_share = task_.options.contact_share;
-  const LegalGrasps tested =
-      test_grasp_pose(task_.scene, task_.solver, task_.pair, stop, task_.aim.flipped, legality);
+  const LegalGrasps tested = test_grasp_pose(task_.scene, task_.solver, task_.pair, stop,
+                                             task_.aim.flipped, task_.legality_at(stop));
   if (tested.poses.empty()) {
     result.status = tested.too_little_contact > 0 ? ApproachStatus::PoorOverlap
                     : tested.unreachable_at_destination + tested.collides_at_destination > 0
