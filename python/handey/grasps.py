@@ -20,8 +20,8 @@ __all__ = ["describe", "grasps"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
 DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs, the best
-# A hand pose: index of its pair, place and direction in the grasp plane, half-turn.
-_PoseKey = tuple[int, float, float, float, bool]
+# A hand pose: its pair, place and direction in the grasp plane, half-turn.
+_PoseKey = tuple[str, float, float, float, bool]
 
 
 @dataclass
@@ -34,9 +34,9 @@ class _Seen:
     """
 
     poses: set[_PoseKey] = field(default_factory=set)
-    told: dict[int, int] = field(default_factory=dict)
+    told: dict[str, int] = field(default_factory=dict)
 
-    def tell(self, report: GoalReport, pair: int, reason: str, is_new: bool = False) -> None:
+    def tell(self, report: GoalReport, pair: str, reason: str, is_new: bool = False) -> None:
         """Why a pair has no legal pose; what the last pass says counts."""
         if pair in self.told:
             report.reasons[self.told[pair]] = reason
@@ -60,11 +60,16 @@ def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterato
         yield from _legal(work, ranking.ranked, options.legality, options.poses_per_round, report)
 
 
-def _rank(work: Workspace, wanted: _core.RankingOptions, choice: _core.PairChoice) -> _core.Ranking:
+def _rank(
+    work: Workspace,
+    wanted: _core.RankingOptions,
+    choice: _core.PairChoice,
+    open_clearance: float | None = None,
+) -> _core.Ranking:
     options = _core.RankingOptions(
         features=wanted.features,
         finger_clearance=wanted.finger_clearance,
-        open_clearance=wanted.open_clearance,
+        open_clearance=wanted.open_clearance if open_clearance is None else open_clearance,
         use_destination=wanted.use_destination,
         least_share=wanted.least_share,
         most_targets=wanted.most_targets,
@@ -80,12 +85,16 @@ def _of_faces(
 ) -> Iterator[Grasp]:
     """Legal poses of all pairs; denser ones of the best as long as no grasp could be approached."""
     size, seen = options.poses_per_round, _Seen()
-    ranked = ranking.ranked
-    yield from _legal(work, ranked, options.legality, size, report, seen)
+    yield from _legal(work, ranking.ranked, options.legality, size, report, seen)
+    narrow = None
     for legality in options.denser:
         if report.funnel.get("approached"):
             return
-        yield from _legal(work, ranked[:DENSER_PAIRS], legality, size, report, seen)
+        if narrow is None:
+            # The room that the fingers need when the jaws open as little as legality lets them.
+            least = min(options.ranking.open_clearance, legality.open_clearance / 4)
+            narrow = _rank(work, options.ranking, _core.PairChoice.TwoFaces, least)
+        yield from _legal(work, narrow.ranked[:DENSER_PAIRS], legality, size, report, seen)
 
 
 def _legal(
@@ -105,19 +114,20 @@ def _legal(
             if legal[i] is None:
                 with work.clock("legal grasps"):
                     found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
-                legal[i] = [pose for pose in found.poses if _key(i, pose) not in seen.poses]
-                seen.poses.update(_key(i, pose) for pose in found.poses)
+                name = str(pair.pair)
+                legal[i] = [pose for pose in found.poses if _key(name, pose) not in seen.poses]
+                seen.poses.update(_key(name, pose) for pose in found.poses)
                 report.add("legal grasp poses", len(legal[i] or []))
                 if found.poses:
-                    seen.tell(report, i, f"{pair.pair}: legal hand poses only in a denser pass")
+                    seen.tell(report, name, f"{name}: legal hand poses only in a denser pass")
                 else:
-                    seen.tell(report, i, _illegal(pair, found), is_new=True)
+                    seen.tell(report, name, _illegal(pair, found), is_new=True)
             for aim in (legal[i] or [])[start : start + size]:
                 yield pair, aim
         start += size
 
 
-def _key(pair: int, pose: _core.GraspPose) -> _PoseKey:
+def _key(pair: str, pose: _core.GraspPose) -> _PoseKey:
     at = pose.in_plane
     return pair, round(at.x, 6), round(at.y, 6), round(at.theta, 6), pose.flipped
 
