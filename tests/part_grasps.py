@@ -25,6 +25,7 @@ import handey
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
 from handey.marks import Area, Line, Paint
+from handey.robot_file import load_robot
 
 KINDS = ["FaceFace", "FaceEdge", "ParallelEdges", "FaceVertex", "CrossedEdges"]
 VIEW = (np.radians(-38.0), np.radians(24.0))  # about the vertical, and from above
@@ -105,7 +106,7 @@ def examine(path: Path, scale: float, folder: Path) -> tuple[Row, random_cells.P
     parts = [random_cells.read_part(path, scale, turn) for turn in random_cells.axis_turns()]
     mesh = _core.load_mesh(str(path), scale=[scale] * 3, must_be_closed=True).mesh
     body = _core.Body(name=path.stem, shapes=[_core.Shape(_core.MeshShape(mesh, solid=True))])
-    robot = handey.load_robot(random_cells.ROBOT)[0]
+    robot = load_robot(random_cells.ROBOT)[0]
     begin = time.process_time()
     found = _core.find_feature_pairs(body, robot.gripper)
     spent = 1e3 * (time.process_time() - begin)
