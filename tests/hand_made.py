@@ -180,3 +180,18 @@ def pick_and_place(cell_path: Path, X_from=BLOCK, X_to=BLOCK_GOAL, X_PH=X_PH, wi
     maker.carry("block", X_from, X_to, X_PH, width, **how)
     maker.finish()
     return maker.plan()
+
+
+def clauses(report):
+    """The clauses of a valid plan that are broken."""
+    return {fault.clause for fault in report.faults}
+
+
+def step_of(plan, action):
+    """Index of the first step with this action."""
+    return next(i for i, step in enumerate(plan["steps"]) if step["action"] == action)
+
+
+def wall(size, xyz):
+    """Fixtures with one wall."""
+    return {"wall": {"box": size, "pose": {"xyz": xyz}}}

@@ -9,9 +9,8 @@
 
 namespace handey::bindings {
 
-/// A real, finite array of any shape, C order, a copy.
-inline pybind11::array_t<double> real_array(const pybind11::handle& object,
-                                            const std::string& place) {
+/// An array of real numbers of any kind and shape.
+inline pybind11::array numbers(const pybind11::handle& object, const std::string& place) {
   namespace py = pybind11;
   const py::array given = py::array::ensure(object);
   if (!given) {
@@ -24,6 +23,14 @@ inline pybind11::array_t<double> real_array(const pybind11::handle& object,
     throw py::type_error(place + ": found dtype " + std::string(py::str(given.dtype())) +
                          ", expected real numbers (float or int)");
   }
+  return given;
+}
+
+/// A real, finite array of any shape, C order, a copy.
+inline pybind11::array_t<double> real_array(const pybind11::handle& object,
+                                            const std::string& place) {
+  namespace py = pybind11;
+  const py::array given = numbers(object, place);
   py::array_t<double, py::array::c_style | py::array::forcecast> values(given);
   const double* data = values.data();
   for (py::ssize_t i = 0; i < values.size(); ++i) {

@@ -6,7 +6,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "handey/handey.hpp"
+#include "handey/errors.hpp"
+#include "handey/geometry/pose.hpp"
 
 namespace handey::bindings {
 
@@ -16,6 +17,7 @@ void bind_world(pybind11::module_& m);
 void bind_depth_map(pybind11::module_& m);  // part of world
 void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
+void bind_grasp_plane(pybind11::module_& m);  // part of approach
 void bind_approach(pybind11::module_& m);
 void bind_cspace(pybind11::module_& m);
 void bind_layer(pybind11::module_& m);       // part of cspace

@@ -3,6 +3,10 @@
 #include <optional>
 
 #include "configurations.hpp"
+#include "handey/collision/certificate.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/collision/solids.hpp"
+#include "handey/world/cell.hpp"
 
 namespace py = pybind11;
 

@@ -32,6 +32,7 @@ PYBIND11_MODULE(_core, m) {
   bind_world(m);
   bind_collision(m);
   bind_grasp(m);
+  bind_grasp_plane(m);
   bind_approach(m);
   bind_cspace(m);
   bind_motion(m);

@@ -3,6 +3,19 @@
 #include <optional>
 
 #include "arrays.hpp"
+#include "handey/collision/box_certificate.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/collision/scene.hpp"
+#include "handey/collision/solids.hpp"
+#include "handey/cspace/arm_table.hpp"
+#include "handey/cspace/cross_section.hpp"
+#include "handey/cspace/lattice.hpp"
+#include "handey/cspace/planar_arm.hpp"
+#include "handey/cspace/separation.hpp"
+#include "handey/cspace/slice.hpp"
+#include "handey/geometry/polygon.hpp"
+#include "handey/kinematics/arm.hpp"
+#include "handey/world/cell.hpp"
 
 namespace py = pybind11;
 

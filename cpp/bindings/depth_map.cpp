@@ -1,4 +1,6 @@
 // Depth maps of the floor world: arrays in, fixtures out.
+#include "handey/world/depth_map.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -7,6 +9,8 @@
 #include <optional>
 
 #include "configurations.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/world/body.hpp"
 
 namespace py = pybind11;
 
@@ -28,16 +32,8 @@ void append_scaled(const py::array& given, double scale, std::vector<double>& va
 }
 
 Measured measured(const py::object& object, const std::string& place, double scale) {
-  const py::array given = py::array::ensure(object);
-  if (!given) {
-    PyErr_Clear();
-    throw py::type_error(place + ": expected an array of real numbers");
-  }
+  const py::array given = numbers(object, place);
   const char kind = given.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') {
-    throw py::type_error(place + ": found dtype " + std::string(py::str(given.dtype())) +
-                         ", expected real numbers (float or int)");
-  }
   if (given.ndim() != 2) {
     throw InvalidInput("E_SHAPE", place,
                        "has " + std::to_string(given.ndim()) + " dimensions; expected 2");

@@ -1,9 +1,15 @@
 // The search through linked slices, as Python sees it.
+#include "handey/cspace/free_space.hpp"
+
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/cspace/arm_table.hpp"
 #include "handey/cspace/search.hpp"
+#include "handey/cspace/slice.hpp"
+#include "handey/kinematics/arm.hpp"
 
 namespace py = pybind11;
 

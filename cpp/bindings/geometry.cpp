@@ -7,7 +7,12 @@
 #include <sstream>
 
 #include "arrays.hpp"
+#include "handey/geometry/convex_pieces.hpp"
 #include "handey/geometry/mesh_file.hpp"
+#include "handey/geometry/polygon.hpp"
+#include "handey/geometry/polyhedron.hpp"
+#include "handey/geometry/section.hpp"
+#include "handey/geometry/shape.hpp"
 
 namespace py = pybind11;
 

@@ -1,6 +1,16 @@
 // The floor grasp: face pairs, neighbours at both ends, ranking, fingertip targets, legal hand
 // poses.
 #include "configurations.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/geometry/polygon.hpp"
+#include "handey/grasp/backproject.hpp"
+#include "handey/grasp/features.hpp"
+#include "handey/grasp/legality.hpp"
+#include "handey/grasp/ranking.hpp"
+#include "handey/grasp/target.hpp"
+#include "handey/kinematics/gripper.hpp"
+#include "handey/world/body.hpp"
+#include "handey/world/cell.hpp"
 
 namespace handey::bindings {
 namespace {

@@ -3,6 +3,12 @@
 #include <optional>
 
 #include "configurations.hpp"
+#include "handey/kinematics/arm.hpp"
+#include "handey/kinematics/gripper.hpp"
+#include "handey/kinematics/path.hpp"
+#include "handey/kinematics/spherical_wrist.hpp"
+#include "handey/kinematics/urdf.hpp"
+#include "handey/world/cell.hpp"
 
 namespace py = pybind11;
 

@@ -1,8 +1,11 @@
 // The floor cspace: one layer of a slice, looked at as a whole.
+#include "handey/cspace/layer.hpp"
+
 #include <algorithm>
 #include <cstdint>
 
 #include "bindings.hpp"
+#include "handey/cspace/arm_table.hpp"
 
 namespace py = pybind11;
 

@@ -1,5 +1,14 @@
 // Floor motion: timing, sampling, shortcut, gross.
 #include "bindings.hpp"
+#include "handey/collision/certificate.hpp"
+#include "handey/cspace/free_space.hpp"
+#include "handey/cspace/search.hpp"
+#include "handey/cspace/separation.hpp"
+#include "handey/cspace/slice.hpp"
+#include "handey/motion/gross.hpp"
+#include "handey/motion/sampling.hpp"
+#include "handey/motion/shortcut.hpp"
+#include "handey/motion/timing.hpp"
 
 namespace handey::bindings {
 namespace {

@@ -1,5 +1,13 @@
 // The floor cspace: the tables of arms, and slices made from them.
+#include "handey/cspace/slice.hpp"
+
 #include "configurations.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/cspace/arm_table.hpp"
+#include "handey/cspace/cross_section.hpp"
+#include "handey/cspace/free_space.hpp"
+#include "handey/cspace/lattice.hpp"
+#include "handey/kinematics/arm.hpp"
 
 namespace py = pybind11;
 

@@ -3,6 +3,12 @@
 #include <optional>
 
 #include "configurations.hpp"
+#include "handey/collision/checker.hpp"
+#include "handey/geometry/polyhedron.hpp"
+#include "handey/geometry/shape.hpp"
+#include "handey/kinematics/arm.hpp"
+#include "handey/world/body.hpp"
+#include "handey/world/cell.hpp"
 
 namespace py = pybind11;
 

@@ -4,11 +4,10 @@
 // rectangle that stands out most for its place is halved until all are within tolerance.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vector>
 
-#include "handey/geometry/shape.hpp"
 #include "handey/world/depth_map.hpp"
+#include "prism.hpp"
 
 namespace handey::world {
 
@@ -32,12 +31,6 @@ struct Columns {
   ColumnSpace space;
 };
 
-/// A convex polygon of the grid between two planes: the corners of the lower end and those of the
-/// upper, counter-clockwise with u to the right and v up.
-struct Prism {
-  std::vector<Eigen::Vector3d> lower, upper;
-};
-
 struct Cover {
   std::vector<Prism> solids;  ///< map frame
   double excess = 0.0;
@@ -45,8 +38,5 @@ struct Cover {
 };
 
 Cover cover_columns(Columns columns, const Pose& X_WD, const DepthMapOptions& options);
-
-/// As a box where it is one, else as a convex mesh.
-Shape shape_of(const Prism& solid);
 
 }  // namespace handey::world

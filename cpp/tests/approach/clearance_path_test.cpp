@@ -11,25 +11,15 @@
 
 #include "handey/approach/quasipotential.hpp"
 #include "handey/errors.hpp"
+#include "small_hand.hpp"
 
 namespace handey {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kCell = 0.004;
-
-Region rectangle(double x0, double y0, double x1, double y1) {
-  return {{{Vector2d(x0, y0), Vector2d(x1, y0), Vector2d(x1, y1), Vector2d(x0, y1)}}};
-}
-
-/// A hand 30 mm wide and 50 mm long, its finger grasp point 5 mm behind its tip.
-GripperOutline small_hand() {
-  GripperOutline outline;
-  outline.pieces.push_back({rectangle(-0.045, -0.015, 0.005, 0.015).loops.front(), -0.01, 0.01});
-  outline.radius = std::hypot(0.045, 0.015);
-  return outline;
-}
+using testing::kCell;
+using testing::rectangle;
+using testing::small_hand;
 
 MotionGrid grid_with(const std::vector<Region>& obstacles) {
   MotionGrid grid({0, 0}, 0.2, kCell, 1);
