@@ -15,6 +15,7 @@ void bind_geometry(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 void bind_world(pybind11::module_& m);
 void bind_depth_map(pybind11::module_& m);  // part of world
+void bind_placing(pybind11::module_& m);    // parts of world and collision
 void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
 void bind_grasp_plane(pybind11::module_& m);  // part of approach

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_core, m) {
   bind_kinematics(m);
   bind_world(m);
   bind_collision(m);
+  bind_placing(m);
   bind_grasp(m);
   bind_grasp_plane(m);
   bind_approach(m);

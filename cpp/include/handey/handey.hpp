@@ -21,6 +21,8 @@
 #include "handey/world/body.hpp"
 #include "handey/world/cell.hpp"
 #include "handey/world/depth_map.hpp"
+#include "handey/world/resting.hpp"
+#include "handey/world/support_faces.hpp"
 // collision
 #include "handey/collision/box_certificate.hpp"
 #include "handey/collision/certificate.hpp"
@@ -28,6 +30,7 @@
 #include "handey/collision/contact_motion.hpp"
 #include "handey/collision/scene.hpp"
 #include "handey/collision/solids.hpp"
+#include "handey/collision/standing_places.hpp"
 // grasp
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/features.hpp"
