@@ -3,6 +3,9 @@
 #include <optional>
 
 #include "configurations.hpp"
+#include "handey/collision/standing_places.hpp"
+#include "handey/world/resting.hpp"
+#include "handey/world/support_faces.hpp"
 
 namespace py = pybind11;
 

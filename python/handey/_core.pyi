@@ -89,6 +89,8 @@ __all__: list[str] = [
     "Region",
     "RejectedPair",
     "Rejection",
+    "RestingOptions",
+    "RestingPose",
     "RetreatOptions",
     "RetreatResult",
     "Robot",
@@ -116,6 +118,11 @@ __all__: list[str] = [
     "SlideStatus",
     "Sphere",
     "SphericalWristSolver",
+    "StandingPlace",
+    "StandingPlaceOptions",
+    "StandingPlaces",
+    "SupportFace",
+    "SupportFaceOptions",
     "SurfaceReport",
     "TimedPath",
     "TimingOptions",
@@ -142,6 +149,7 @@ __all__: list[str] = [
     "find_feature_pairs",
     "find_legal_grasps",
     "find_overlaps",
+    "find_standing_places",
     "fingertip_targets",
     "follow_hand_path",
     "forbidden_angles",
@@ -177,6 +185,8 @@ __all__: list[str] = [
     "quaternion_xyzw",
     "rank_grasps",
     "reach_ball",
+    "resting_pose",
+    "resting_poses",
     "robot_overlaps",
     "search_free_space",
     "shorten_path",
@@ -184,6 +194,7 @@ __all__: list[str] = [
     "slide_along",
     "slide_to_target",
     "subtract",
+    "support_faces",
     "tessellate",
     "test_grasp_pose",
     "time_path",
@@ -2947,6 +2958,265 @@ class SceneOptions:
     @patch_triangles.setter
     def patch_triangles(self, arg0: int) -> None: ...
 
+class RestingOptions:
+    """
+    Options of resting_poses.
+    """
+    def __init__(
+        self,
+        *,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        least_tip_angle: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        contact_gap: typing.SupportsFloat | typing.SupportsIndex = 0.0006,
+        least_width: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        rolling: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        rolling_step: typing.SupportsFloat | typing.SupportsIndex = 0.4,
+    ) -> None: ...
+    @property
+    def contact_gap(self) -> float:
+        """
+        What lies this near above the table stands on it [m].
+        """
+    @contact_gap.setter
+    def contact_gap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def least_tip_angle(self) -> float:
+        """
+        Poses that a smaller turn would tip over are left out [rad].
+        """
+    @least_tip_angle.setter
+    def least_tip_angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def least_width(self) -> float:
+        """
+        Of the region that it stands on [m].
+        """
+    @least_width.setter
+    def least_width(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rolling(self) -> float:
+        """
+        A pose that a smaller turn tips over is one of a round side [rad].
+        """
+    @rolling.setter
+    def rolling(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rolling_step(self) -> float:
+        """
+        Poses of a round side are kept this far apart, or more [rad].
+        """
+    @rolling_step.setter
+    def rolling_step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def segments(self) -> int:
+        """
+        Sides of a round shape.
+        """
+    @segments.setter
+    def segments(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class RestingPose:
+    """
+    A part standing on the plane z = 0 of a support frame S.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def X_SP(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        The part in S, (4, 4): lowest point at z = 0, centre of mass over the origin.
+        """
+    @property
+    def contact(self) -> Region:
+        """
+        What it stands on, in x, y of S.
+        """
+    @property
+    def footprint(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+        """
+        Convex hull of what it stands on, in x, y of S, (n, 2) [m].
+        """
+    @property
+    def height(self) -> float:
+        """
+        Of the centre of mass over the plane [m].
+        """
+    @property
+    def margin(self) -> float:
+        """
+        Of the centre of mass from the nearest edge of the footprint [m].
+        """
+    @property
+    def probability(self) -> float:
+        """
+        Of coming to rest so.
+        """
+    @property
+    def shadow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+        """
+        Convex hull of the whole part seen from above, in x, y of S, (n, 2) [m].
+        """
+    @property
+    def tip_angle(self) -> float:
+        """
+        The least turn that tips it over [rad].
+        """
+    @property
+    def top(self) -> float:
+        """
+        Height of its highest point [m].
+        """
+    @property
+    def width(self) -> float:
+        """
+        Least width of what it stands on [m].
+        """
+
+class SupportFace:
+    """
+    An upward horizontal face of a body, in a frame S.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def X_WS(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        S in the world, (4, 4): z along the outward normal.
+        """
+    @property
+    def area(self) -> float:
+        """
+        [m2]
+        """
+    @property
+    def enclosed(self) -> Region:
+        """
+        What the body's walls enclose, in S.
+        """
+    @property
+    def outline(self) -> Region:
+        """
+        Of the body seen from above, in S.
+        """
+    @property
+    def region(self) -> Region:
+        """
+        In x, y of S.
+        """
+
+class SupportFaceOptions:
+    """
+    Options of support_faces.
+    """
+    def __init__(
+        self,
+        *,
+        level: typing.SupportsFloat | typing.SupportsIndex = 0.0174533,
+        least_area: typing.SupportsFloat | typing.SupportsIndex = 4e-06,
+        least_wall: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+    ) -> None: ...
+    @property
+    def least_area(self) -> float:
+        """
+        Smaller faces are left out [m2].
+        """
+    @least_area.setter
+    def least_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def least_wall(self) -> float:
+        """
+        A wall rises at least so far over the face [m].
+        """
+    @least_wall.setter
+    def least_wall(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def level(self) -> float:
+        """
+        A normal leaves the vertical by no more [rad].
+        """
+    @level.setter
+    def level(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class StandingPlace:
+    """
+    Where a part can be put down.
+    """
+    @property
+    def X_WP(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        (4, 4)
+        """
+    @property
+    def margin(self) -> float:
+        """
+        Of the centre of mass within what it stands on [m].
+        """
+    @property
+    def room(self) -> float:
+        """
+        It is at least so far from all that is not under it [m].
+        """
+
+class StandingPlaceOptions:
+    """
+    Options of find_standing_places.
+
+    Args:
+        first, count: which samples of the sequence.
+        seed: of the sequence.
+        near_point: every second sample is around this point of the world, (2,), or None.
+        within: up to so far from it [m].
+        region: box of the world that all that it stands on lies in, (2, 2), or None.
+        inside: within the walls of the face's body.
+        least_margin: of the centre of mass within what it stands on [m].
+        clearance: to all that is not under it [m].
+        rooms: greater distances, ascending; a place's room is the greatest that it has [m].
+        robot: Configuration in which the robot stands and is kept clear of, or None.
+    """
+    def __init__(
+        self,
+        *,
+        first: typing.SupportsInt | typing.SupportsIndex = 0,
+        count: typing.SupportsInt | typing.SupportsIndex = 32,
+        seed: typing.SupportsInt | typing.SupportsIndex = 0,
+        near_point: typing.Any = None,
+        within: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+        region: typing.Any = None,
+        inside: bool = False,
+        least_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        rooms: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [
+            0.003,
+            0.01,
+            0.03,
+            0.06,
+        ],
+        robot: Configuration | None = None,
+    ) -> None: ...
+
+class StandingPlaces:
+    """
+    Places, and why the other samples fell.
+    """
+    @property
+    def in_the_way(self) -> str:
+        """
+        What was met most often by those that were not clear.
+        """
+    @property
+    def not_clear(self) -> int: ...
+    @property
+    def off_the_face(self) -> int: ...
+    @property
+    def outside_the_region(self) -> int: ...
+    @property
+    def outside_the_walls(self) -> int: ...
+    @property
+    def places(self) -> list[StandingPlace]:
+        """
+        In the order of the sequence.
+        """
+    @property
+    def tried(self) -> int: ...
+
 class Lattice:
     """
     The cells of a slice over the first three joints.
@@ -4005,6 +4275,51 @@ def find_overlaps(
 ) -> list[Overlap]:
     """
     Pairs of fixtures and parts, a part among them, that overlap deeper than tolerance [m].
+    """
+
+def resting_pose(part: Body, up: typing.Any, options: RestingOptions = ...) -> RestingPose:
+    """
+    The part standing with `up` (3,), a direction of its own frame, upwards, stably or not.
+    """
+
+def resting_poses(part: Body, options: RestingOptions = ...) -> list[RestingPose]:
+    """
+    All stable resting poses of a part on a plane, the steadiest first.
+
+    Args:
+        part: Body; round shapes are polyhedra that contain them.
+        options: RestingOptions.
+
+    Returns:
+        List of RestingPose; their probabilities sum up to 1.
+    """
+
+def support_faces(body: Body, options: SupportFaceOptions = ...) -> list[SupportFace]:
+    """
+    The upward horizontal faces of a body where it is, as SupportFace, highest first.
+    """
+
+def find_standing_places(
+    model: CollisionModel,
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    rest: RestingPose,
+    face: SupportFace,
+    options: StandingPlaceOptions = ...,
+) -> StandingPlaces:
+    """
+    Where on a face can a part be put down, standing stably and clear of everything?
+
+    Args:
+        model: collision geometry of the cell.
+        cell: where the other bodies are.
+        part: index of the part.
+        rest: RestingPose of the part.
+        face: SupportFace of a body where it is.
+        options: StandingPlaceOptions.
+
+    Raises:
+        InvalidInput: for options out of range, or a model of another cell.
     """
 
 def fingertip_targets(

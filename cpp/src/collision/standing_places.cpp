@@ -1,4 +1,6 @@
-// Samples (x, y, turn) about the centre of mass; cheap tests in the plane of the face first.
+// Samples (x, y, turn) about the centre of mass; cheap tests in the plane of the face first. Where
+// few samples are good, the least bad ones are shifted and turned until what of the part's shadow
+// lies where it must not has no area, as far as a pattern search leads.
 #include "handey/collision/standing_places.hpp"
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/geometry/section.hpp"
 
 namespace handey {
 namespace {
@@ -20,8 +23,14 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 0.02;  // of a lift: how much nearer than it a body may be
+constexpr double kNothing = 1e-9;   // smaller areas are rounding [m2]
+constexpr int kFew = 8;  // Choice: with fewer than one good sample in so many, bad ones are mended
+constexpr int kMended = 8;        // Choice: at most so many in one run
+constexpr int kSteps = 60;        // of the pattern search, at most
+constexpr double kFinest = 1e-4;  // its least step [m]
+constexpr int kMostShapes = 200;  // Choice: measured obstacles, which have more, mend nothing
 // Powers of 1 / g, g the real root of x^4 = x + 1: Roberts' low-discrepancy sequence.
-constexpr double kSteps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+constexpr double kPowers[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
 
 void refuse(const char* name, const std::string& message) {
   throw InvalidInput("E_RANGE", name, message);
@@ -112,7 +121,12 @@ class Finder {
  public:
   Finder(const std::shared_ptr<const CollisionModel>& model, const Cell& cell, int part,
          const RestingPose& rest, const SupportFace& face, const StandingPlaceOptions& options)
-      : rest_(rest), face_(face), options_(options), start_(start_of(options.seed)) {
+      : cell_(cell),
+        part_(part),
+        rest_(rest),
+        face_(face),
+        options_(options),
+        start_(start_of(options.seed)) {
     const CollisionModel::Impl& bodies = model->impl();
     own_ = &bodies.parts[static_cast<std::size_t>(part)];
     for (const collision::Obstacle& body :
@@ -141,12 +155,7 @@ class Finder {
     }
     if (options.region) {
       Eigen::AlignedBox2d box;
-      const Pose X_SW = face.X_WS.inverse();
-      for (int corner = 0; corner < 4; ++corner) {
-        const Vector2d at =
-            options.region->corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner));
-        box.extend((X_SW * Vector3d(at.x(), at.y(), face.X_WS.translation().z())).head<2>());
-      }
+      for (int corner = 0; corner < 4; ++corner) box.extend(region_corner(corner));
       domain_ = domain_.intersection(box);
     }
   }
@@ -154,6 +163,7 @@ class Finder {
   StandingPlaces run() {
     if (domain_.isEmpty() || rest_.footprint.size() < 3) return found_;
     for (int i = 0; i < options_.count; ++i) look_at(options_.first + i);
+    if (static_cast<int>(found_.places.size()) * kFew < options_.count) mend();
     int most = 0;
     for (const auto& [name, count] : met_) {
       if (count <= most) continue;
@@ -166,7 +176,7 @@ class Finder {
  private:
   void look_at(int index) {
     Vector3d u;
-    for (int k = 0; k < 3; ++k) u[k] = frac(start_[k] + kSteps[k] * (index + 1));
+    for (int k = 0; k < 3; ++k) u[k] = frac(start_[k] + kPowers[k] * (index + 1));
     Vector2d at = domain_.min() + u.head<2>().cwiseProduct(domain_.sizes());
     if (options_.near_point && index % 2 == 1) {
       const Vector3d near(options_.near_point->x(), options_.near_point->y(),
@@ -179,33 +189,35 @@ class Finder {
     const bool square = (index / 2) % 2 == 0;
     const double turn = square ? aligned_ + 0.5 * kPi * std::floor(4.0 * u.z()) : 2.0 * kPi * u.z();
     ++found_.tried;
-    test(at, turn);
+    int* why = test({at, turn});
+    if (why == nullptr) return;
+    ++*why;
+    fallen_.push_back({at, turn});
   }
 
-  void test(const Vector2d& at, double turn) {
-    const Eigen::Rotation2Dd rotation(turn);
+  struct Sample {
+    Vector2d at;
+    double turn;
+  };
+
+  /// Keeps a sample that is good; else which of the counts it is of.
+  int* test(const Sample& sample) {
+    const Vector2d& at = sample.at;
+    const Eigen::Rotation2Dd rotation(sample.turn);
     const Polygon hull = stood_on(rotation, at);
     const double margin = std::min(margin_of(hull, at), std::max(rest_.margin, 1e-9));
-    if (margin < std::min(options_.least_margin, 0.5 * rest_.margin)) {
-      ++found_.off_the_face;
-      return;
-    }
-    if (options_.region && !in_region(hull)) {
-      ++found_.outside_the_region;
-      return;
-    }
+    if (margin < std::min(options_.least_margin, 0.5 * rest_.margin)) return &found_.off_the_face;
+    if (options_.region && !in_region(hull)) return &found_.outside_the_region;
     if (options_.inside && !in_walls(hull, moved(rest_.shadow, rotation, at))) {
-      ++found_.outside_the_walls;
-      return;
+      return &found_.outside_the_walls;
     }
     Pose X_SS = Pose::Identity();
     X_SS.linear().topLeftCorner<2, 2>() = rotation.toRotationMatrix();
     X_SS.translation().head<2>() = at;
     const Pose X_WP = face_.X_WS * X_SS * rest_.X_SP;
     if (const Standing* met = meets(X_WP, options_.clearance)) {
-      ++found_.not_clear;
       ++met_[met->label];
-      return;
+      return &found_.not_clear;
     }
     double room = options_.clearance;
     for (const double wider : options_.rooms) {
@@ -213,6 +225,93 @@ class Finder {
       room = wider;
     }
     found_.places.push_back({X_WP, margin, room});
+    return nullptr;
+  }
+
+  /// Shifts and turns the least bad samples until they are good, or no step makes them less bad.
+  void mend() {
+    look_round();
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < fallen_.size(); ++i) order.emplace_back(badness(fallen_[i]), i);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (order.size() > kMended) order.resize(kMended);
+    for (const auto& [bad, index] : order) {
+      const Sample sample = mended(fallen_[index], bad);
+      int* was = test(fallen_[index]);  // which count it is of
+      if (was != nullptr && test(sample) == nullptr) --*was;
+    }
+  }
+
+  Sample mended(Sample sample, double bad) const {
+    double step = 0.25 * std::sqrt(area(Region{{rest_.shadow}}));
+    const double radius = std::max(rest_.shadow[0].norm(), kFinest);
+    for (int i = 0; i < kSteps && bad > kNothing && step > kFinest; ++i) {
+      Sample best = sample;
+      double least = bad;
+      for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0),
+                                  Vector3d(0, -1, 0), Vector3d(0, 0, 1), Vector3d(0, 0, -1)}) {
+        const Sample moved_on{sample.at + step * way.head<2>(),
+                              sample.turn + step / radius * way.z()};
+        const double value = badness(moved_on);
+        if (value >= least) continue;
+        least = value;
+        best = moved_on;
+      }
+      if (least < bad) {
+        sample = best;
+        bad = least;
+      } else {
+        step *= 0.5;
+      }
+    }
+    return sample;
+  }
+
+  /// Area of what lies where it must not [m2].
+  double badness(const Sample& sample) const {
+    const Eigen::Rotation2Dd rotation(sample.turn);
+    const Region shadow{{moved(wide_shadow_, rotation, sample.at)}};
+    const Region foot{{moved(rest_.footprint, rotation, sample.at)}};
+    double sum = area(intersect(shadow, around_));
+    if (options_.region) sum += area(subtract(foot, allowed_));
+    if (options_.inside) sum += area(subtract(foot, face_.enclosed));
+    return sum + 0.1 * std::max(0.0, -margin_of(domain_corners_, sample.at));
+  }
+
+  /// What stands in the room that the part takes up over the face, seen from above.
+  void look_round() {
+    std::vector<Region> shadows;
+    const Pose X_SW = face_.X_WS.inverse();
+    const auto add = [&](const Body& body) {
+      for (const Shape& shape : body.shapes) {
+        shadows.push_back(slab_projection(shape, X_SW * body.X_WB, options_.clearance, rest_.top));
+      }
+    };
+    for (const Body& fixture : cell_.fixtures) {
+      if (static_cast<int>(fixture.shapes.size()) <= kMostShapes) add(fixture);
+    }
+    for (std::size_t i = 0; i < cell_.parts.size(); ++i) {
+      const int index = static_cast<int>(i);
+      if (index != part_ && !(cell_.held && cell_.held->part == index)) add(cell_.parts[i]);
+    }
+    around_ = unite(shadows);
+    const Region grown = offset(Region{{rest_.shadow}}, (1.0 + kRounding) * options_.clearance);
+    wide_shadow_ = grown.empty() ? rest_.shadow : grown.loops.front();
+    const Vector2d &low = domain_.min(), &high = domain_.max();
+    domain_corners_ = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+    if (!options_.region) return;
+    Polygon corners;
+    for (int corner = 0; corner < 4; ++corner) corners.push_back(region_corner(corner));
+    allowed_ = Region{{convex_hull(corners)}};
+  }
+
+  /// A corner of the region asked for, in S.
+  Vector2d region_corner(int corner) const {
+    const Vector2d at =
+        options_.region->corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner));
+    return (face_.X_WS.inverse() * Vector3d(at.x(), at.y(), face_.X_WS.translation().z()))
+        .head<2>();
   }
 
   /// Hull of where part and face are in contact, in S.
@@ -239,7 +338,6 @@ class Finder {
   }
 
   bool in_walls(const Polygon& hull, const Polygon& shadow) const {
-    constexpr double kNothing = 1e-9;  // [m2]
     return area(subtract(Region{{hull}}, face_.enclosed)) < kNothing &&
            area(subtract(Region{{shadow}}, face_.outline)) < kNothing;
   }
@@ -267,6 +365,8 @@ class Finder {
     return nullptr;
   }
 
+  const Cell& cell_;
+  const int part_;
   const RestingPose& rest_;
   const SupportFace& face_;
   const StandingPlaceOptions& options_;
@@ -277,6 +377,10 @@ class Finder {
   double contact_radius_ = 0.0;
   double aligned_ = 0.0;  // turn that makes the part square to the face [rad]
   Eigen::AlignedBox2d domain_;
+  std::vector<Sample> fallen_;
+  // Of mending:
+  Region around_, allowed_;
+  Polygon wide_shadow_, domain_corners_;
   std::map<std::string, int> met_;
   StandingPlaces found_;
 };
