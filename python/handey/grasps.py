@@ -16,7 +16,7 @@ from handey.pick_and_place import Workspace
 from handey.plan_options import PlanOptions
 from handey.report import GoalReport
 
-__all__ = ["describe", "grasps"]
+__all__ = ["Grasps", "describe"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
 DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs, the best
@@ -45,19 +45,81 @@ class _Seen:
             report.reasons.append(reason)
 
 
-def grasps(work: Workspace, options: PlanOptions, report: GoalReport) -> Iterator[Grasp]:
-    """Grasp poses legal at both ends, in the order to try them; tells the report what fell."""
-    # A goal may be tried again from another state of the cell: only the last try is told.
-    report.funnel, report.reasons, report.attempts = {}, [], []
-    choice = options.ranking.pairs
-    if choice != _core.PairChoice.BeyondFaces:
-        ranking = _rank(work, options.ranking, _core.PairChoice.TwoFaces)
-        _report_faces(report, ranking, options.ranking)
-        yield from _of_faces(work, ranking, options, report)
-    if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
-        ranking = _rank(work, options.ranking, _core.PairChoice.BeyondFaces)
-        _report_beyond_faces(report, ranking)
-        yield from _legal(work, ranking.ranked, options.legality, options.poses_per_round, report)
+class Grasps:
+    """The grasp poses of one goal that are legal at both ends, in the order to try them.
+
+    Tells the report what fell.
+    """
+
+    def __init__(self, work: Workspace, options: PlanOptions, report: GoalReport) -> None:
+        # A goal may be tried again from another state of the cell: only the last try is told.
+        report.funnel, report.reasons, report.attempts = {}, [], []
+        self._work, self._options, self._report = work, options, report
+        self._seen = _Seen()
+        self._denser = list(options.denser)
+        self._narrow: list[_core.RankedPair] | None = None
+
+    def first(self) -> Iterator[Grasp]:
+        """Two faces, in denser passes as long as none could be approached; then other pairs."""
+        options, report = self._options, self._report
+        choice = options.ranking.pairs
+        if choice != _core.PairChoice.BeyondFaces:
+            ranking = _rank(self._work, options.ranking, _core.PairChoice.TwoFaces)
+            _report_faces(report, ranking, options.ranking)
+            yield from self._legal(ranking.ranked, options.legality)
+            while self._denser and not report.funnel.get("approached"):
+                yield from self._pass()
+        if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
+            ranking = _rank(self._work, options.ranking, _core.PairChoice.BeyondFaces)
+            _report_beyond_faces(report, ranking)
+            yield from self._legal(ranking.ranked, options.legality)
+
+    def rest(self) -> Iterator[Grasp]:
+        """What the denser passes give that were spared, because a grasp could be approached."""
+        while self._denser and self._options.ranking.pairs != _core.PairChoice.BeyondFaces:
+            yield from self._pass()
+
+    def _pass(self) -> Iterator[Grasp]:
+        """One denser pass over the best pairs of faces."""
+        legality = self._denser.pop(0)
+        if self._narrow is None:
+            # The room that the fingers need when the jaws open as little as legality lets them.
+            wanted = self._options.ranking
+            least = min(wanted.open_clearance, legality.open_clearance / 4)
+            ranking = _rank(self._work, wanted, _core.PairChoice.TwoFaces, least)
+            self._narrow = ranking.ranked[:DENSER_PAIRS]
+        yield from self._legal(self._narrow, legality)
+
+    def _legal(
+        self, ranked: list[_core.RankedPair], legality: _core.LegalityOptions
+    ) -> Iterator[Grasp]:
+        """Some poses of each pair, best pair first, then as many more; none twice."""
+        size = self._options.poses_per_round
+        legal: list[list[_core.GraspPose] | None] = [None] * len(ranked)
+        start = 0
+        while any(poses is None or start < len(poses) for poses in legal):
+            for i, pair in enumerate(ranked):
+                if legal[i] is None:
+                    legal[i] = self._find(pair, legality)
+                for aim in (legal[i] or [])[start : start + size]:
+                    yield pair, aim
+            start += size
+
+    def _find(
+        self, pair: _core.RankedPair, legality: _core.LegalityOptions
+    ) -> list[_core.GraspPose]:
+        """The legal poses of a pair that no pass before has found."""
+        work, seen, name = self._work, self._seen, str(pair.pair)
+        with work.clock("legal grasps"):
+            found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
+        fresh = [pose for pose in found.poses if _key(name, pose) not in seen.poses]
+        seen.poses.update(_key(name, pose) for pose in found.poses)
+        self._report.add("legal grasp poses", len(fresh))
+        if found.poses:
+            seen.tell(self._report, name, f"{name}: legal hand poses only in a denser pass")
+        else:
+            seen.tell(self._report, name, _illegal(pair, found), is_new=True)
+        return fresh
 
 
 def _rank(
@@ -78,53 +140,6 @@ def _rank(
     scene = work.scene
     with work.clock("rank grasps"):
         return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)
-
-
-def _of_faces(
-    work: Workspace, ranking: _core.Ranking, options: PlanOptions, report: GoalReport
-) -> Iterator[Grasp]:
-    """Legal poses of all pairs; denser ones of the best as long as no grasp could be approached."""
-    size, seen = options.poses_per_round, _Seen()
-    yield from _legal(work, ranking.ranked, options.legality, size, report, seen)
-    narrow = None
-    for legality in options.denser:
-        if report.funnel.get("approached"):
-            return
-        if narrow is None:
-            # The room that the fingers need when the jaws open as little as legality lets them.
-            least = min(options.ranking.open_clearance, legality.open_clearance / 4)
-            narrow = _rank(work, options.ranking, _core.PairChoice.TwoFaces, least)
-        yield from _legal(work, narrow.ranked[:DENSER_PAIRS], legality, size, report, seen)
-
-
-def _legal(
-    work: Workspace,
-    ranked: list[_core.RankedPair],
-    legality: _core.LegalityOptions,
-    size: int,
-    report: GoalReport,
-    seen: _Seen | None = None,
-) -> Iterator[Grasp]:
-    """`size` poses of each pair, best pair first, then as many more; none that was tried before."""
-    seen = seen or _Seen()
-    legal: list[list[_core.GraspPose] | None] = [None] * len(ranked)
-    start = 0
-    while any(poses is None or start < len(poses) for poses in legal):
-        for i, pair in enumerate(ranked):
-            if legal[i] is None:
-                with work.clock("legal grasps"):
-                    found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
-                name = str(pair.pair)
-                legal[i] = [pose for pose in found.poses if _key(name, pose) not in seen.poses]
-                seen.poses.update(_key(name, pose) for pose in found.poses)
-                report.add("legal grasp poses", len(legal[i] or []))
-                if found.poses:
-                    seen.tell(report, name, f"{name}: legal hand poses only in a denser pass")
-                else:
-                    seen.tell(report, name, _illegal(pair, found), is_new=True)
-            for aim in (legal[i] or [])[start : start + size]:
-                yield pair, aim
-        start += size
 
 
 def _key(pair: str, pose: _core.GraspPose) -> _PoseKey:

@@ -21,10 +21,11 @@ MOST_ITERATIONS = 2**31 - 1
 
 
 def _denser() -> tuple[_core.LegalityOptions, ...]:
-    # Choice: 5 degrees and 8 mm; then also poses that have little more than the least contact.
-    return (
-        _core.LegalityOptions(directions=72, spacing=0.008),
-        _core.LegalityOptions(directions=72, spacing=0.008, least_contact_share=0.15),
+    # Choice: 8 mm, at 15 degrees, then at 5; down to poses that have little more than the least
+    # contact, those with more first.
+    return tuple(
+        _core.LegalityOptions(directions=n, spacing=0.008, least_contact_share=0.15)
+        for n in (24, 72)
     )
 
 
@@ -41,8 +42,8 @@ class PlanOptions:
         denser: the same, for further passes over the grasps where the one before gave no plan.
         direct: options and budgets of one attempt.
         poses_per_round: grasp poses of each face pair tried before the next pair has its turn.
-        sampling_rounds: iterations of the gross planner in each pass over the grasps.
-        most_by_arm: grasps for which, from the second pass on, the whole arm is sampled near
+        sampling_rounds: iterations of the gross planner in each round of attempts.
+        most_by_arm: grasps for which, from the second round on, the whole arm is sampled near
             obstacles, where the local planners gave no way.
 
     Raises:
@@ -57,7 +58,7 @@ class PlanOptions:
     denser: tuple[_core.LegalityOptions, ...] = field(default_factory=_denser)
     direct: DirectOptions = field(default_factory=DirectOptions)
     poses_per_round: int = 4
-    sampling_rounds: tuple[int, ...] = (400, 4000)
+    sampling_rounds: tuple[int, ...] = (50, 400, 4000)
     most_by_arm: int = 4
 
     def __post_init__(self) -> None:

@@ -16,25 +16,22 @@ from functools import cache
 import numpy as np
 
 from handey import _core
+from handey.budgets import DeadlinePassed
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
-from handey.grasps import describe, grasps
+from handey.grasps import Grasps
 from handey.jaws import is_wider_than_jaws
 from handey.pick_and_place import (
     Carry,
-    DirectOptions,
-    Reach,
     Workspace,
-    carry_through,
-    find_reach,
 )
 from handey.placement import TOUCHING, examine_standing, stands_stably
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
-from handey.report import Attempt, GoalReport, GrossMotion, LocalMotion, Report, StageClock
+from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
 from handey.task import PlaceAt
-from handey.way_out import WayOutOptions
+from handey.tries import Tries
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 
@@ -45,10 +42,6 @@ class PlanResult:
 
     plan: Plan | None
     report: Report
-
-
-class _DeadlinePassed(Exception):
-    """Raised between two attempts; never leaves this module."""
 
 
 @dataclass
@@ -88,7 +81,7 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
     try:
         reached = _plan_goals(cell_file, progress, model, solver, options, clock, report, stop_at)
-    except _DeadlinePassed:
+    except DeadlinePassed:
         reached, report.deadline_passed = False, True
     report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
     report.cpu_s = round(time.process_time() - begin_cpu, 6)
@@ -202,75 +195,17 @@ def _plan_goal(
         report.funnel, report.attempts, report.status = {}, [], "failed"
         report.reasons = [unstable]
         return None
-    tries = _Tries(work, report)
-    direct = _with_budget(options, 0)
-    for pair, aim in grasps(work, options, report):
-        _respect(stop_at)
-        for q_pick in aim.q_pick[:2]:
-            carry = tries.reach(_Try(describe(pair, aim), pair, aim, q_pick), direct)
-            if carry is not None:
-                return carry
+    tries = Tries(work, report, options, stop_at)
+    grasps = Grasps(work, options, report)
+    carry = tries.reach_any(grasps.first())
     for round_ in range(1, len(options.sampling_rounds)):
-        direct = _with_budget(options, round_)
-        carry = tries.again(direct, options.most_by_arm, stop_at)
-        if carry is not None:
-            return carry
+        carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
+    if carry is not None:
+        return carry
     report.status = "failed"
     part = scene.cell.parts[scene.part]
     report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     return None
-
-
-@dataclass(frozen=True)
-class _Try:
-    """One grasp, and the arm's configuration in it."""
-
-    name: str
-    pair: _core.RankedPair
-    aim: _core.GraspPose
-    q_pick: np.ndarray
-
-
-@dataclass
-class _Tries:
-    """What came of the grasps of one goal so far."""
-
-    work: Workspace
-    report: GoalReport
-    reaches: list[tuple[str, Reach]] = field(default_factory=list)
-    fallen: list[_Try] = field(default_factory=list)
-
-    def reach(self, attempt: _Try, direct: DirectOptions) -> Carry | None:
-        """Steps 4 to 6; a Carry if all of them were planned."""
-        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
-        if isinstance(reach, Carry):
-            self.report.attempts.append(Attempt(attempt.name, reach.stage, reach.reason))
-            self.fallen.append(attempt)
-            return None
-        self.report.add("approached", 1)
-        self.reaches.append((attempt.name, reach))
-        return self.carry(attempt.name, reach, direct)
-
-    def carry(self, name: str, reach: Reach, direct: DirectOptions) -> Carry | None:
-        """Steps 5 and 6; a Carry if they were planned."""
-        carry = carry_through(self.work, reach, direct)
-        self.report.attempts.append(Attempt(name, carry.stage, carry.reason))
-        return _planned(self.report, name, carry) if carry.stage == "done" else None
-
-    def again(self, direct: DirectOptions, most_by_arm: int, stop_at: float | None) -> Carry | None:
-        """All reaches with a greater budget, then what fell near obstacles, by the whole arm."""
-        for name, reach in list(self.reaches):
-            _respect(stop_at)
-            carry = self.carry(name, reach, direct)
-            if carry is not None:
-                return carry
-        fallen, self.fallen = self.fallen, []
-        for attempt in fallen[:most_by_arm]:
-            _respect(stop_at)
-            carry = self.reach(attempt, direct)
-            if carry is not None:
-                return carry
-        return None
 
 
 def _unstable(work: Workspace) -> str:
@@ -302,37 +237,6 @@ def _carried_by(work: Workspace) -> list[str]:
         if before and not stands_stably(without, touched.index, other.X_WB):
             fallen.append(other.name)
     return fallen
-
-
-def _with_budget(options: PlanOptions, round_: int) -> DirectOptions:
-    """Gross motions of one pass over the grasps: the last may take all the time that they want."""
-    iterations = options.sampling_rounds[round_]
-    gross = _core.GrossOptions(
-        sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
-        shortcut=_core.ShortcutOptions(seed=options.seed),
-    )
-    if round_ < len(options.sampling_rounds) - 1:
-        # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
-        gross.search = _core.SearchOptions(max_proofs=5 * iterations)
-        gross.separation = _core.SeparationOptions(most_cells=0)
-    arm = None
-    if round_ > 0:
-        arm = WayOutOptions(
-            sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations)
-        )
-    return replace(options.direct, gross=gross, arm=arm)
-
-
-def _planned(report: GoalReport, name: str, carry: Carry) -> Carry:
-    report.status, report.grasp = "planned", name
-    if carry.grasp is not None:
-        report.jaws = {"open": carry.grasp.opening, "closed": carry.grasp.width}
-    return carry
-
-
-def _respect(stop_at: float | None) -> None:
-    if stop_at is not None and time.perf_counter() > stop_at:
-        raise _DeadlinePassed
 
 
 def _take_over(

@@ -256,13 +256,19 @@ std::optional<Hit> CollisionChecker::find_hit(const Configuration& configuration
   if (!std::isfinite(clearance)) throw InvalidInput("E_NUMBER", "clearance", "is not finite");
   impl_->place(configuration);
   std::optional<Hit> found;
-  impl_->visit_near([clearance](const PiecePair&) { return clearance; },
-                    [&](const PiecePair& pair) {
-                      const double distance = impl_->distance(pair, clearance, clearance);
-                      if (distance > clearance) return false;
-                      found = impl_->hit(pair, distance);
-                      return true;
-                    });
+  const auto visit = [&](const PiecePair& pair) {
+    const double distance = impl_->distance(pair, clearance, clearance);
+    if (distance > clearance) return false;
+    found = impl_->hit(pair, distance);
+    impl_->last_hit = pair;
+    return true;
+  };
+  // What stood in the way of the last configuration often does in that of the next.
+  if (impl_->last_hit && impl_->rough_distance(*impl_->last_hit) <= clearance &&
+      visit(*impl_->last_hit)) {
+    return found;
+  }
+  impl_->visit_near([clearance](const PiecePair&) { return clearance; }, visit);
   return found;
 }
 

@@ -2,6 +2,7 @@
 // All in the robot frame R.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,8 @@ struct CollisionChecker::Impl {
   std::vector<collision::Obstacle> obstacles;
   std::vector<collision::ObstaclePiece> obstacle_pieces;
   std::vector<std::pair<int, int>> mover_pairs;  ///< movers that are checked against each other
+
+  std::optional<collision::PiecePair> last_hit;  ///< that find_hit() met
 
   // Where the movers are: set by place().
   std::vector<Pose> X_RB;  ///< of the robot bodies

@@ -15,7 +15,7 @@ constexpr int kRings[] = {1, 2, 4, 8, 16};  // in finest cells
 }  // namespace
 
 std::vector<EndConnection> connect_end(FreeSpace& space, int slice, const SlicePoint& end,
-                                       const CertificateOptions& certificate) {
+                                       const CertificateOptions& certificate, int max_proofs) {
   std::vector<EndConnection> connections;
   const int own = space.box_at(slice, end);
   if (own < 0) return connections;
@@ -30,6 +30,7 @@ std::vector<EndConnection> connect_end(FreeSpace& space, int slice, const SliceP
     for (int k = 0; k < 27; ++k) {
       const int step[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
       if (k == 13) continue;
+      if (space.proofs() > max_proofs) return connections;
       SlicePoint there = end;
       for (int j = 0; j < 3; ++j) {
         there[static_cast<std::size_t>(j)] += step[j] * ring * space.finest(j);

@@ -15,8 +15,9 @@ struct EndConnection {
   SlicePoint point{};  ///< in the box: the end itself, or where the certified edge leads
 };
 
+/// @param max_proofs  of the space in all; the end is given up when they are spent
 /// @return at most a few, nearest first; empty if there is none
 std::vector<EndConnection> connect_end(FreeSpace& space, int slice, const SlicePoint& end,
-                                       const CertificateOptions& certificate);
+                                       const CertificateOptions& certificate, int max_proofs);
 
 }  // namespace handey::cspace

@@ -40,7 +40,10 @@ class Search {
     for (const double window : options_.windows) {
       space_.set_window(window);
       result_.window = window;
-      if (!connect_ends()) continue;
+      if (!connect_ends()) {
+        if (is_spent()) break;
+        continue;
+      }
       search();
       if (best_ < kInfinity) {
         result_.found = true;
@@ -64,14 +67,16 @@ class Search {
     result_.reason.clear();
     best_ = kInfinity;
     for (Side& side : sides_) side = Side{};
-    sides_[0].ends = cspace::connect_end(space_, 0, space_.start_point(), options_.certificate);
+    sides_[0].ends = cspace::connect_end(space_, 0, space_.start_point(), options_.certificate,
+                                         options_.max_proofs);
     if (sides_[0].ends.empty()) {
       result_.reason = "the start can be connected to no free box of its slice";
       return false;
     }
     for (int goal = 0; goal < static_cast<int>(space_.goals().size()); ++goal) {
-      for (const cspace::EndConnection& end : cspace::connect_end(
-               space_, 2 + 2 * goal, space_.goal_point(goal), options_.certificate)) {
+      for (const cspace::EndConnection& end :
+           cspace::connect_end(space_, 2 + 2 * goal, space_.goal_point(goal), options_.certificate,
+                               options_.max_proofs)) {
         sides_[1].ends.push_back(end);
       }
     }

@@ -1,0 +1,42 @@
+"""How long to try: the budgets of each round of attempts, and the deadline of the whole plan."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+from handey import _core
+from handey.pick_and_place import DirectOptions
+from handey.plan_options import PlanOptions
+from handey.way_out import WayOutOptions
+
+__all__ = ["DeadlinePassed", "respect", "with_budget"]
+
+
+class DeadlinePassed(Exception):
+    """Raised between two attempts; never leaves the planner."""
+
+
+def respect(stop_at: float | None) -> None:
+    """Raise `DeadlinePassed` once the clock `time.perf_counter` is past `stop_at` [s]."""
+    if stop_at is not None and time.perf_counter() > stop_at:
+        raise DeadlinePassed
+
+
+def with_budget(options: PlanOptions, round_: int) -> DirectOptions:
+    """Gross motions of one round of attempts: the last may take all the time that they want."""
+    iterations = options.sampling_rounds[round_]
+    gross = _core.GrossOptions(
+        sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
+        shortcut=_core.ShortcutOptions(seed=options.seed),
+    )
+    if round_ < len(options.sampling_rounds) - 1:
+        # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
+        gross.search = _core.SearchOptions(max_proofs=5 * iterations)
+        gross.separation = _core.SeparationOptions(most_cells=0)
+    arm = None
+    if round_ > 0:
+        arm = WayOutOptions(
+            sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations)
+        )
+    return replace(options.direct, gross=gross, arm=arm)

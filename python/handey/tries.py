@@ -1,0 +1,135 @@
+"""The grasps of one goal that were tried, and when to try them again with a greater budget.
+
+Most motions are found at once or not for long, so every grasp first gets a small budget. Where
+several have fallen, the first of them is given the next budget before one more is tried with the
+smallest: neither a hard motion that all grasps share nor a hopeless grasp costs much. The order is
+fixed by what fell, not by time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from handey import _core
+from handey.budgets import respect, with_budget
+from handey.grasps import Grasp, describe
+from handey.pick_and_place import (
+    Carry,
+    DirectOptions,
+    Reach,
+    Workspace,
+    carry_through,
+    find_reach,
+)
+from handey.plan_options import PlanOptions
+from handey.report import Attempt, GoalReport
+
+__all__ = ["Tries", "planned"]
+
+WAITING = 4  # Choice: grasps that fell before the first of them gets a greater budget
+
+
+@dataclass(frozen=True)
+class _Try:
+    """One grasp, and the arm's configuration in it."""
+
+    name: str
+    pair: _core.RankedPair
+    aim: _core.GraspPose
+    q_pick: np.ndarray
+
+
+@dataclass
+class Tries:
+    """What came of the grasps of one goal so far.
+
+    Attributes:
+        work: the goal.
+        report: is told of every attempt.
+        options: budgets of the rounds.
+        stop_at: deadline by `time.perf_counter` [s].
+        waiting: by round, what fell at a gross motion in the round before.
+        fallen: grasps that fell near obstacles.
+    """
+
+    work: Workspace
+    report: GoalReport
+    options: PlanOptions
+    stop_at: float | None
+    waiting: dict[int, list[tuple[str, Reach]]] = field(default_factory=dict)
+    fallen: list[_Try] = field(default_factory=list)
+
+    def reach_any(self, grasps: Iterator[Grasp]) -> Carry | None:
+        """Steps 4 to 6 with the least budget for one grasp after the other: the first that serves.
+
+        Every grasp is tried with up to two configurations of the arm.
+        """
+        for pair, aim in grasps:
+            for q_pick in aim.q_pick[:2]:
+                attempt = _Try(describe(pair, aim), pair, aim, q_pick)
+                carry = self._reach(attempt, 0) or self._catch_up()
+                if carry is not None:
+                    return carry
+        return None
+
+    def again(self, round_: int) -> Carry | None:
+        """All that fell, with budgets up to a round's; then the whole arm near obstacles.
+
+        What fell by its budget is tried with the next greater one first.
+        """
+        for budget in range(1, round_ + 1):
+            for name, reach in self.waiting.pop(budget, []):
+                carry = self._carry(name, reach, budget)
+                if carry is not None:
+                    return carry
+        fallen, self.fallen = self.fallen, []
+        for attempt in fallen[: self.options.most_by_arm]:
+            carry = self._reach(attempt, round_)
+            if carry is not None:
+                return carry
+        return None
+
+    def _catch_up(self) -> Carry | None:
+        """The next budget for the first that wait for it; the greatest is left to the end."""
+        for round_ in range(1, len(self.options.sampling_rounds) - 1):
+            waiting = self.waiting.get(round_, [])
+            if len(waiting) >= WAITING:
+                carry = self._carry(*waiting.pop(0), round_)
+                if carry is not None:
+                    return carry
+        return None
+
+    def _reach(self, attempt: _Try, round_: int) -> Carry | None:
+        respect(self.stop_at)
+        direct = self._budget(round_)
+        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        if isinstance(reach, Carry):
+            self.report.attempts.append(Attempt(attempt.name, reach.stage, reach.reason))
+            self.fallen.append(attempt)
+            return None
+        self.report.add("approached", 1)
+        return self._carry(attempt.name, reach, round_)
+
+    def _carry(self, name: str, reach: Reach, round_: int) -> Carry | None:
+        respect(self.stop_at)
+        carry = carry_through(self.work, reach, self._budget(round_))
+        self.report.attempts.append(Attempt(name, carry.stage, carry.reason))
+        if carry.stage == "done":
+            return planned(self.report, name, carry)
+        if round_ + 1 < len(self.options.sampling_rounds):
+            self.waiting.setdefault(round_ + 1, []).append((name, reach))
+        return None
+
+    def _budget(self, round_: int) -> DirectOptions:
+        return with_budget(self.options, round_)
+
+
+def planned(report: GoalReport, name: str, carry: Carry) -> Carry:
+    """Tell the report of the grasp with which a goal was planned."""
+    report.status, report.grasp = "planned", name
+    if carry.grasp is not None:
+        report.jaws = {"open": carry.grasp.opening, "closed": carry.grasp.width}
+    return carry
