@@ -61,6 +61,7 @@ class Family:
     valid: int = 0
     missed: int = 0
     plan_s: list[float] = field(default_factory=list)
+    no_plan_s: list[float] = field(default_factory=list)
     check_s: list[float] = field(default_factory=list)
     asked: Approaches = field(default_factory=Approaches)
     ours: Approaches = field(default_factory=Approaches)
@@ -143,7 +144,8 @@ def measure(name: str, paths: Iterator[Path], search: float | None) -> Family:
             handey.plan(cell_file)  # the robot's tables
         family.cells += 1
         result = plan_watched(cell_file, family.asked)
-        family.plan_s.append(result.report.cpu_s)
+        planned = result.plan is not None
+        (family.plan_s if planned else family.no_plan_s).append(result.report.cpu_s)
         compare(cell_file, family)
         if result.plan is None:
             found = search is not None and exhaustive.search(path, search).solvable
@@ -185,6 +187,7 @@ def table(families: list[Family], searched: bool) -> str:
         ("planned, of cells known to have a way", lambda f: share(f.planned, f.planned + f.missed)),
         ("valid plans", lambda f: share(f.valid, f.planned)),
         ("whole plan, CPU ms", lambda f: spread(f.plan_s)),
+        ("no plan found, CPU ms until told", lambda f: spread(f.no_plan_s)),
         ("`handey check`, CPU s", lambda f: spread(f.check_s, 1, 2)),
         ("approaches that the planner asked for: found", lambda f: _found(f.asked)),
         ("the same, CPU ms", lambda f: spread(f.asked.seconds)),

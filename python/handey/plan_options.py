@@ -58,7 +58,7 @@ class PlanOptions:
     denser: tuple[_core.LegalityOptions, ...] = field(default_factory=_denser)
     direct: DirectOptions = field(default_factory=DirectOptions)
     poses_per_round: int = 4
-    sampling_rounds: tuple[int, ...] = (50, 400, 4000)
+    sampling_rounds: tuple[int, ...] = (50, 150, 500, 4000)
     most_by_arm: int = 4
 
     def __post_init__(self) -> None:

@@ -29,7 +29,7 @@ from handey.report import Attempt, GoalReport
 
 __all__ = ["Tries", "planned"]
 
-WAITING = 4  # Choice: grasps that fell before the first of them gets a greater budget
+WAITING = 3  # Choice: grasps that fell before the first of them gets a greater budget
 
 
 @dataclass(frozen=True)
