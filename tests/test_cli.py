@@ -59,7 +59,7 @@ class StandInReport:
 
     def __post_init__(self):
         tried = types.SimpleNamespace(grasp="faces 1/2", stage="approach", reason="meets a wall")
-        self.goals = [types.SimpleNamespace(goal=0, grasp="faces 0/3", attempts=[tried])]
+        self.goals = [types.SimpleNamespace(goal=0, grasp="faces 0/3", attempts=[tried], aside=[])]
 
     def as_dict(self):
         motions = [motion.as_dict() for motion in self.gross_motions]

@@ -208,7 +208,7 @@ IMPOSSIBLE = {
             "goals": (at("a", "[0.5, -0.2, 0.015]"), at("b", "[0.5, 0.2, 0.015]")),
             "more": "order: any\n",
         },
-        "b (destination)",
+        "b is where a is to go\n  b could not be moved aside: no fixture has 'support: true'",
     ),
 }
 

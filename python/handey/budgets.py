@@ -30,7 +30,7 @@ def with_budget(options: PlanOptions, round_: int) -> DirectOptions:
         sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
         shortcut=_core.ShortcutOptions(seed=options.seed),
     )
-    if round_ < len(options.sampling_rounds) - 1:
+    if round_ < len(options.sampling_rounds) - 1 or not options.thorough:
         # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
         gross.search = _core.SearchOptions(max_proofs=5 * iterations)
         gross.separation = _core.SeparationOptions(most_cells=0)

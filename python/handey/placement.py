@@ -11,7 +11,7 @@ placements of a part on a table.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -20,7 +20,7 @@ import numpy as np
 if TYPE_CHECKING:
     from handey import _core
 
-__all__ = ["TOUCHING", "Standing", "examine_standing", "stands_stably"]
+__all__ = ["TOUCHING", "Standing", "carried_by", "examine_standing", "stands_stably"]
 
 CONTACT_GAP = 6e-4  # of the format: what is this near above a surface stands on it [m]
 DEEPEST_CONTACT = (
@@ -31,6 +31,7 @@ LEAST_WIDTH = 2e-3  # of the format [m]
 STEEPEST = (
     0.1  # Choice: least vertical share of a normal; steeper than 84 degrees is a wall, not a ground
 )
+LEVEL = np.cos(np.radians(1.0))  # least of a horizontal face. Choice: the tolerance of faces
 SEGMENTS = 128  # Choice: sides of a round shape; a 50 mm radius is met within 0.02 mm
 PAIRS_AT_ONCE = 20_000  # bounds the memory of one pass to some 50 MB
 
@@ -44,12 +45,14 @@ class Standing:
         on: names of what it stands on.
         width: least width of the region that carries it [m]; 0 if nothing does.
         reason: why it does not stay; empty if it does.
+        region: convex hull of what it stands on, in x, y of the world (k, 2) [m].
     """
 
     stable: bool
     on: tuple[str, ...]
     width: float
     reason: str
+    region: np.ndarray = field(default_factory=lambda: np.zeros((0, 2)))
 
 
 def stands_stably(cell: _core.Cell, part: int, X_WP: np.ndarray) -> bool:
@@ -62,6 +65,7 @@ def examine_standing(
     part: int,
     X_WP: np.ndarray,
     near: Sequence[_core.BodyRef] | None = None,
+    level: bool = False,
 ) -> Standing:
     """How a part stands at a pose, on the fixtures and the other parts where they are in the cell.
 
@@ -71,6 +75,7 @@ def examine_standing(
         X_WP: the part in the world (4, 4).
         near: bodies that can carry it there, with all within TOUCHING of it; None: all are looked
             at, which is slow where there are many or round ones.
+        level: only horizontal faces carry it.
 
     Raises:
         InvalidInput: if the part has no shape.
@@ -83,7 +88,7 @@ def examine_standing(
     held = None if cell.held is None else cell.held.part
     points, on = [], []
     for name, triangles in _grounds(cell, {part, held}, near):
-        found = contact_points(downward, triangles)
+        found = contact_points(downward, _level(triangles) if level else triangles)
         if len(found):
             points.append(found)
             on.append(name)
@@ -93,12 +98,28 @@ def examine_standing(
     width = least_width(hull)
     if width < LEAST_WIDTH - 1e-9:
         reason = f"it would stand on a region {width * 1e3:.2f} mm wide; 2 mm are needed"
-        return Standing(False, tuple(on), width, reason)
+        return Standing(False, tuple(on), width, reason, hull)
     outside = distance_outside(hull, centre[:2])
     if outside > 1e-6:
         reason = f"its centre of mass lies {outside * 1e3:.1f} mm beside what it would stand on"
-        return Standing(False, tuple(on), width, reason)
-    return Standing(True, tuple(on), width, "")
+        return Standing(False, tuple(on), width, reason, hull)
+    return Standing(True, tuple(on), width, "", hull)
+
+
+def carried_by(model: _core.CollisionModel, cell: _core.Cell, part: int) -> list[int]:
+    """Indices of the parts that stand stably with `part` in place, and not without it."""
+    from handey import _core
+
+    without = cell.with_held(part, np.eye(4))
+    fallen = []
+    for touched in _core.touching_bodies(model, cell, part):
+        if touched.kind != _core.BodyRef.Kind.Part:
+            continue
+        X_WO = cell.parts[touched.index].X_WB
+        before = stands_stably(cell, touched.index, X_WO)
+        if before and not stands_stably(without, touched.index, X_WO):
+            fallen.append(touched.index)
+    return fallen
 
 
 def _grounds(
@@ -138,6 +159,12 @@ def _facing(triangles: np.ndarray, up: bool) -> np.ndarray:
     lengths = np.linalg.norm(normals, axis=1)
     vertical = normals[:, 2] if up else -normals[:, 2]
     return np.asarray(triangles[(lengths > 0) & (vertical > STEEPEST * lengths)])
+
+
+def _level(triangles: np.ndarray) -> np.ndarray:
+    """Those of the triangles that are horizontal."""
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return np.asarray(triangles[normals[:, 2] >= LEVEL * np.linalg.norm(normals, axis=1)])
 
 
 def contact_points(downward: np.ndarray, upward: np.ndarray) -> np.ndarray:

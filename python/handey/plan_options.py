@@ -45,6 +45,7 @@ class PlanOptions:
         sampling_rounds: iterations of the gross planner in each round of attempts.
         most_by_arm: grasps for which, from the second round on, the whole arm is sampled near
             obstacles, where the local planners gave no way.
+        thorough: the last round may take all the time that its gross motions want.
 
     Raises:
         TypeError: if a number is none.
@@ -60,6 +61,7 @@ class PlanOptions:
     poses_per_round: int = 4
     sampling_rounds: tuple[int, ...] = (50, 150, 500, 4000)
     most_by_arm: int = 4
+    thorough: bool = True
 
     def __post_init__(self) -> None:
         _require_whole("seed", self.seed, 0, GREATEST_SEED)

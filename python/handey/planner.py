@@ -16,17 +16,18 @@ from functools import cache
 import numpy as np
 
 from handey import _core
-from handey.budgets import DeadlinePassed
+from handey.budgets import DeadlinePassed, respect
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
 from handey.grasps import Grasps
 from handey.jaws import is_wider_than_jaws
+from handey.order import Hands, plan_order
 from handey.pick_and_place import (
     Carry,
     Workspace,
 )
-from handey.placement import TOUCHING, examine_standing, stands_stably
+from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
 from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
@@ -79,8 +80,20 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell)
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
+    hands = Hands(
+        model,
+        solver,
+        cache(lambda: _arm_table(cell_file.cell.robot)),
+        clock,
+        _plan_goal,
+        stop_at,
+        lambda: respect(stop_at),
+    )
     try:
-        reached = _plan_goals(cell_file, progress, model, solver, options, clock, report, stop_at)
+        moves = plan_order(cell_file, options, hands, report)
+        for move in moves or []:
+            _take_over(progress, move.target, move.goal, move.carry, clock, report)
+        reached = moves is not None
     except DeadlinePassed:
         reached, report.deadline_passed = False, True
     report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
@@ -104,15 +117,6 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
 
 def _refuse_unsupported(cell_file: CellFile) -> None:
     faults = []
-    for index, goal in enumerate(cell_file.goals):
-        if not isinstance(goal, PlaceAt):
-            faults.append(
-                Fault(
-                    "E_UNSUPPORTED",
-                    f"task[{index}]",
-                    "goals 'on' and 'inside' are not planned by this version: give a pose, 'at'",
-                )
-            )
     if not _core.SphericalWristSolver.is_supported(cell_file.cell.robot):
         faults.append(
             Fault(
@@ -123,61 +127,6 @@ def _refuse_unsupported(cell_file: CellFile) -> None:
         )
     if faults:
         raise InvalidInput([replace(fault, file=str(cell_file.file or "")) for fault in faults])
-
-
-def _poses(cell_file: CellFile) -> list[PlaceAt]:
-    return [goal for goal in cell_file.goals if isinstance(goal, PlaceAt)]
-
-
-def _is_met(cell: _core.Cell, goal: PlaceAt) -> bool:
-    """Is the part where the goal wants it, within half of the tolerance of a valid plan?"""
-    gap = np.linalg.inv(cell.parts[cell.part_index(goal.part)].X_WB) @ goal.X_WP
-    angle = np.arccos(np.clip((np.trace(gap[:3, :3]) - 1) / 2, -1.0, 1.0))
-    return bool(np.linalg.norm(gap[:3, 3]) <= 5e-5 and angle <= 5e-4)
-
-
-def _plan_goals(
-    cell_file: CellFile,
-    progress: _Progress,
-    model: _core.CollisionModel,
-    solver: _core.SphericalWristSolver,
-    options: PlanOptions,
-    clock: StageClock,
-    report: Report,
-    stop_at: float | None,
-) -> bool:
-    """Plan the goals in their order; with `order: any`, the next one that can be planned."""
-    task, goals = cell_file.task, _poses(cell_file)
-    pending = list(range(len(goals)))
-    table = cache(lambda: _arm_table(cell_file.cell.robot))
-    while pending:
-        done = None
-        for index in pending if task.any_order else pending[:1]:
-            goal, goal_report = goals[index], report.goals[index]
-            if _is_met(progress.cell, goal):
-                goal_report.status = "met already"
-                done = index
-                break
-            part = progress.cell.part_index(goal.part)
-            after = progress.cell.with_part_at(part, goal.X_WP)
-            is_last = all(i == index or _is_met(after, goals[i]) for i in pending)
-            home = cell_file.cell.start.q if is_last and task.return_to_start else None
-            scene = _core.GraspScene(
-                model=model, cell=progress.cell, part=part, X_WP_goal=goal.X_WP
-            )
-            work = Workspace(model, scene, solver, progress.current, home, clock, table)
-            carry = _plan_goal(work, options, goal_report, stop_at)
-            for (action, planner), count in work.given.items():
-                counts = report.planners.setdefault(action, {})
-                counts[planner] = counts.get(planner, 0) + count
-            if carry is not None:
-                _take_over(progress, goal, index, carry, clock, report)
-                done = index
-                break
-        if done is None:
-            return False
-        pending.remove(done)
-    return True
 
 
 def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
@@ -212,7 +161,7 @@ def _unstable(work: Workspace) -> str:
     """What would fall if the part were brought to its goal now; empty if nothing."""
     scene = work.scene
     name = scene.cell.parts[scene.part].name
-    carried = _carried_by(work)
+    carried = [scene.cell.parts[i].name for i in carried_by(work.model, scene.cell, scene.part)]
     if carried:
         verb = "it stands" if len(carried) == 1 else "they stand"
         reason = f"would fall: {verb} on {name}, which is to be moved; an earlier goal may clear it"
@@ -224,19 +173,6 @@ def _unstable(work: Workspace) -> str:
     return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
 
 
-def _carried_by(work: Workspace) -> list[str]:
-    """Names of the parts that stand stably with the scene's part in place, not without it."""
-    scene = work.scene
-    without = scene.cell.with_held(scene.part, np.eye(4))
-    fallen = []
-    for touched in _core.touching_bodies(work.model, scene.cell, scene.part):
-        if touched.kind != _core.BodyRef.Kind.Part:
-            continue
-        other = scene.cell.parts[touched.index]
-        before = stands_stably(scene.cell, touched.index, other.X_WB)
-        if before and not stands_stably(without, touched.index, other.X_WB):
-            fallen.append(other.name)
-    return fallen
 
 
 def _take_over(

@@ -127,6 +127,7 @@ class GoalReport:
         jaws: distance between the pads [m] as the hand comes ("open") and on the part ("closed");
             empty without a grasp.
         exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
+        aside: names of parts moved aside for it, in order.
     """
 
     goal: int
@@ -138,6 +139,7 @@ class GoalReport:
     grasp: str = ""
     jaws: dict[str, float] = field(default_factory=dict)
     exhausted: bool = False
+    aside: list[str] = field(default_factory=list)
 
     def add(self, stage: str, count: int) -> None:
         """Add to a count of the funnel."""
@@ -168,6 +170,7 @@ class GoalReport:
             "reasons": self.reasons,
             "grasp": self.grasp,
             "jaws": self.jaws,
+            "aside": self.aside,
             "attempts": [vars(attempt) for attempt in self.attempts],
         }
 

@@ -57,6 +57,7 @@ def plan_lines(
         lines.append("  every goal is already met: nothing to do")
     for index, goal in enumerate(cell.goals):
         lines += _goal_lines(plan, index, str(goal), report.goals[index].grasp)
+        lines += _aside_lines(report.goals[index].aside)
         lines += _local_lines([m for m in report.local_motions if m.goal == index])
         lines += _gross_lines([m for m in report.gross_motions if m.goal == index])
     seconds = f"{plan.duration_s:.2f} s in {len(plan.steps)} steps"
@@ -82,6 +83,11 @@ def _goal_lines(plan: Plan, index: int, goal: str, grasp: str) -> list[str]:
         f"    grasp: {grasp}; {closed}" if grasp else f"    grasp: {closed}",
         f"    steps: {times}",
     ]
+
+
+def _aside_lines(parts: list[str]) -> list[str]:
+    """What was moved aside for the sake of a goal."""
+    return [f"    moved aside first: {', '.join(parts)}"] if parts else []
 
 
 def _planner_lines(report: Report) -> list[str]:
