@@ -173,8 +173,6 @@ def _unstable(work: Workspace) -> str:
     return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
 
 
-
-
 def _take_over(
     progress: _Progress,
     goal: PlaceAt,
