@@ -117,6 +117,18 @@ def _served(moves: tuple[Move, ...], goals: tuple[Goal, ...]) -> list[Move]:
     return found[::-1]
 
 
+def _overlapping_parts(model: _core.CollisionModel, cell: _core.Cell, part: int) -> list[int]:
+    """Parts that overlap this one, deeper than contact."""
+    found = []
+    for overlap in _core.find_overlaps(model, cell):
+        refs = [overlap.a, overlap.b]
+        if all(ref.kind == _core.BodyRef.Kind.Part for ref in refs):
+            pair = [ref.index for ref in refs]
+            if part in pair:
+                found.append(pair[1 - pair.index(part)])
+    return found
+
+
 @dataclass
 class _Search:
     cell_file: CellFile
@@ -285,18 +297,13 @@ class _Search:
         if not isinstance(goal, PlaceAt):
             return blockers or None
         there = state.cell.with_part_at(part, goal.X_WP)
-        for overlap in _core.find_overlaps(model, there):
-            refs = (overlap.a, overlap.b)
-            names = (overlap.name_a, overlap.name_b)
-            if goal.part not in names:
-                continue
-            other = refs[1] if names[0] == goal.part else refs[0]
-            if other.kind != _core.BodyRef.Kind.Part:
-                return []
-            blockers.append(other.index)
+        near = _core.touching_bodies(model, there, part, TOUCHING)
+        # That no goal is inside a fixture was seen when the cell was read. How deep bodies overlap
+        # takes long to tell: it is asked only where another part is near.
+        if any(ref.kind == _core.BodyRef.Kind.Part for ref in near):
+            blockers += _overlapping_parts(model, there, part)
         if blockers:
             return list(dict.fromkeys(blockers))
-        near = _core.touching_bodies(model, there, part, TOUCHING)
         return None if examine_standing(state.cell, part, goal.X_WP, near).stable else []
 
     def _tell_blocked(self, state: _State, index: int) -> None:
