@@ -1,9 +1,9 @@
-// Floor approach: the approach, its search, the retreat.
+// Floor approach: the approach, its search, the article's joined obstacles.
 #include "handey/approach/approach.hpp"
 
 #include "configurations.hpp"
+#include "handey/approach/joined_destination.hpp"
 #include "handey/approach/plane_search.hpp"
-#include "handey/approach/retreat.hpp"
 #include "handey/collision/certificate.hpp"
 #include "handey/collision/checker.hpp"
 #include "handey/grasp/legality.hpp"
@@ -66,7 +66,7 @@ void bind_plan_approach(py::module_& m) {
                      "Accepted overlap of the pad with the unobstructed faces.")
       .def_readwrite(
           "destination_obstacles_join", &ApproachOptions::destination_obstacles_join,
-          "As the article: obstacles moved by T^-1 hinder the approach; only slides are tried.")
+          "As the article: obstacles moved by T^-1 stand in the way of the approaching hand too.")
       .def_readwrite("search", &ApproachOptions::search)
       .def_readwrite("search_levels", &ApproachOptions::search_levels,
                      "Lattices searched where the slides stall, each half as wide; 0: no search.");
@@ -126,59 +126,28 @@ Raises:
 )");
 }
 
-void bind_retreat(py::module_& m) {
-  const RetreatOptions defaults;
-  py::class_<RetreatOptions>(m, "RetreatOptions", "Options of plan_retreat.")
-      .def(py::init([](double least, double most, double step, double contact_travel, double room,
-                       const CertificateOptions& certificate) {
-             return RetreatOptions{least, most, step, contact_travel, room, certificate};
-           }),
-           py::kw_only(), "least"_a = defaults.least, "most"_a = defaults.most,
-           "step"_a = defaults.step, "contact_travel"_a = defaults.contact_travel,
-           "room"_a = defaults.room, "certificate"_a = defaults.certificate)
-      .def_readwrite("least", &RetreatOptions::least, "A shorter retreat is a failure [m].")
-      .def_readwrite("most", &RetreatOptions::most, "Where it stops [m].")
-      .def_readwrite("step", &RetreatOptions::step, "Between two hand poses [m].")
-      .def_readwrite("contact_travel", &RetreatOptions::contact_travel,
-                     "First step, with contacts allowed [m].")
-      .def_readwrite("room", &RetreatOptions::room,
-                     "Ends at the farthest point where the first three joints are free by so much "
-                     "[rad]; 0: not asked.")
-      .def_readwrite("certificate", &RetreatOptions::certificate);
-  py::class_<RetreatResult>(m, "RetreatResult", "A retreat, or why there is none; true if found.")
-      .def_readonly("found", &RetreatResult::found)
-      .def_readonly("path", &RetreatResult::path,
-                    "Configurations from the contact outwards; every edge certified.")
-      .def_readonly("travelled", &RetreatResult::travelled, "[m]")
-      .def_readonly("reason", &RetreatResult::reason, "What stopped it, with names and numbers.")
-      .def("__bool__", [](const RetreatResult& result) { return result.found; });
-  m.def(
-      "plan_retreat",
-      [](CollisionChecker& in_contact, CollisionChecker& clear, const SphericalWristSolver& solver,
-         const Configuration& start, const py::object& direction, const RetreatOptions& options) {
-        const Eigen::Vector3d along = real_vector<3>(direction, "direction");
-        const py::gil_scoped_release release;
-        return plan_retreat(in_contact, clear, solver, start, along, options);
-      },
-      "in_contact"_a, "clear"_a, "solver"_a, "start"_a, "direction"_a, "options"_a = defaults,
-      R"(Move the hand straight out of contact, with what it holds.
-
-The first short step may touch what was touched before, if no contact deepens; from there on every edge is
-certified against everything. Reversed it is a deposit.
+void bind_joined_destination(py::module_& m) {
+  py::class_<JoinedScene>(m, "JoinedScene",
+                          "The origin with copies of what is near the part at its destination.")
+      .def_readonly("model", &JoinedScene::model)
+      .def_readonly("cell", &JoinedScene::cell, "The copies are fixtures: 'wall (destination)'.")
+      .def_readonly("copies", &JoinedScene::copies, "BodyRefs of the copies.")
+      .def(
+          "checker", [](const JoinedScene& joined) { return make_checker(joined); },
+          "A CollisionChecker of that cell in which the hand alone is kept apart from the copies.");
+  m.def("join_destination", &join_destination, py::call_guard<py::gil_scoped_release>(), "scene"_a,
+        "radius"_a = 0.4,
+        R"(The article's obstacles: those near the destination, moved by T^-1, join the origin's.
 
 Args:
-    in_contact: CollisionChecker with the contacts allowed; may be the same as clear.
-    clear: CollisionChecker without them.
-    solver: SphericalWristSolver of the robot.
-    start: Configuration in contact.
-    direction: (3,) unit vector of the hand's motion in the world.
-    options: RetreatOptions.
+    scene: GraspScene.
+    radius: of bodies within that distance of the part's bounding box copies are made [m].
 
 Returns:
-    RetreatResult.
+    JoinedScene.
 
 Raises:
-    InvalidInput: for wrong lengths, numbers or options.
+    InvalidInput: for a part that the scene does not have, a radius out of range.
 )");
 }
 
@@ -187,7 +156,8 @@ Raises:
 void bind_approach(py::module_& m) {
   bind_plane_search(m);
   bind_plan_approach(m);
-  bind_retreat(m);
+  bind_joined_destination(m);
+  bind_departure(m);
 }
 
 }  // namespace handey::bindings

@@ -20,6 +20,7 @@ void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
 void bind_grasp_plane(pybind11::module_& m);  // part of approach
 void bind_approach(pybind11::module_& m);
+void bind_departure(pybind11::module_& m);  // part of approach
 void bind_cspace(pybind11::module_& m);
 void bind_layer(pybind11::module_& m);       // part of cspace
 void bind_free_space(pybind11::module_& m);  // part of cspace

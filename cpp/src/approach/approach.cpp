@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "handey/approach/joined_destination.hpp"
 #include "handey/errors.hpp"
 #include "reason.hpp"
 #include "search_approach.hpp"
@@ -71,11 +72,10 @@ ApproachResult straight_result(const ApproachTask& task, const StraightWay& way)
   return result;
 }
 
-ApproachResult plan(const ApproachTask& task) {
+ApproachResult plan(const ApproachTask& task, CollisionChecker& checker) {
   const ApproachOptions& options = task.options;
-  HandReach reach(task.scene, task.solver, task.X_WG, task.aim, options.legality.clearance);
-  // Obstacles of the destination are known to the grids of the slides only.
-  if (options.destination_obstacles_join) return SlideApproach(task, reach).run();
+  HandReach reach(task.solver, checker, task.X_WG, task.aim.flipped, task.aim.opening,
+                  options.legality.clearance);
   const StraightWay straight = straight_way(task, reach);
   const bool is_long = straight.length >= options.least_run_in - 1e-9;
   const bool is_whole = straight.length >= options.run_in - 1e-9;
@@ -120,12 +120,16 @@ ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver
                              const Eigen::VectorXd& q_pick, const ApproachOptions& options) {
   require_valid(scene, aim, q_pick, options);
   const Pose X_WG = scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB * pair.pair.X_PG;
+  CollisionChecker checker = options.destination_obstacles_join
+                                 ? make_checker(join_destination(scene))
+                                 : CollisionChecker(scene.model, scene.cell);
   const auto with = [&](const GraspPose& grasp, const ApproachOptions& budget) {
     return plan({scene, solver, pair, grasp, q_pick, budget, X_WG,
-                 gripper_outline(*scene.cell.robot, grasp.opening, grasp.flipped)});
+                 gripper_outline(*scene.cell.robot, grasp.opening, grasp.flipped)},
+                checker);
   };
   ApproachResult result = with(aim, options);
-  if (result.found() || options.destination_obstacles_join) return result;
+  if (result.found()) return result;
   ApproachOptions brief = options;
   brief.search_levels = std::min(options.search_levels, 1);
   for (const GraspPose& grasp : less_open(scene, solver, pair, aim, options)) {

@@ -9,13 +9,13 @@
 
 namespace handey {
 
-HandReach::HandReach(const GraspScene& scene, const SphericalWristSolver& solver, const Pose& X_WG,
-                     const GraspPose& aim, double clearance)
+HandReach::HandReach(const SphericalWristSolver& solver, CollisionChecker& checker,
+                     const Pose& X_WG, bool flipped, double opening, double clearance)
     : solver_(solver),
-      checker_(scene.model, scene.cell),
-      X_RG_(scene.cell.X_WR.inverse(Eigen::Isometry) * X_WG),
-      flipped_(aim.flipped),
-      opening_(aim.opening),
+      checker_(checker),
+      X_RG_(checker.cell().X_WR.inverse(Eigen::Isometry) * X_WG),
+      flipped_(flipped),
+      opening_(opening),
       clearance_(clearance) {}
 
 Pose HandReach::hand_in_robot(const PlanarPose& pose) const {

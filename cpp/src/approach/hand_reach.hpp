@@ -1,21 +1,24 @@
 // The arm behind a hand that slides in a grasp plane: which configuration takes the hand to a
 // planar pose, near the one before and in the same branch, and whether the whole robot is free
-// there, hand open and part standing.
+// there, with what it holds.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "handey/collision/checker.hpp"
-#include "handey/grasp/legality.hpp"
+#include "handey/grasp/features.hpp"
+#include "handey/kinematics/spherical_wrist.hpp"
 
 namespace handey {
 
 class HandReach {
  public:
-  /// @param X_WG grasp plane in the world
-  HandReach(const GraspScene& scene, const SphericalWristSolver& solver, const Pose& X_WG,
-            const GraspPose& aim, double clearance);
+  /// @param checker  of the cell, with what is held; used as long as this lives
+  /// @param X_WG  grasp plane in the world
+  /// @param clearance  of the whole robot [m]
+  HandReach(const SphericalWristSolver& solver, CollisionChecker& checker, const Pose& X_WG,
+            bool flipped, double opening, double clearance);
 
   /// The configuration at `pose` next to `q`, whether free or not; none if the arm cannot follow
   /// (see reason()).
@@ -37,7 +40,7 @@ class HandReach {
 
  private:
   const SphericalWristSolver& solver_;
-  CollisionChecker checker_;
+  CollisionChecker& checker_;
   Pose X_RG_;
   bool flipped_;
   double opening_, clearance_;

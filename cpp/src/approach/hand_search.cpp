@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "certified_path.hpp"
 #include "reason.hpp"
@@ -18,14 +19,9 @@ constexpr double kLargestJump = 0.15;
 
 }  // namespace
 
-HandSearch::HandSearch(const GripperOutline& outline, const ObstacleLayers& obstacles,
-                       HandReach& reach, const PlanarPose& aim, const ApproachOptions& options,
-                       double cell)
-    : reach_(reach),
-      aim_(aim),
-      options_(options),
-      plane_(obstacles.draw(cell), obstacles.draw_inside(cell), outline, {}, options.run_in,
-             options.search) {}
+HandSearch::HandSearch(PlaneSearch plane, HandReach& reach, const PlanarPose& aim,
+                       const CertificateOptions& certificate)
+    : reach_(reach), aim_(aim), certificate_(certificate), plane_(std::move(plane)) {}
 
 PlanarPose HandSearch::pose(const LatticePoint& point) const {
   const PlanarPose local = plane_.pose(point);
@@ -39,7 +35,8 @@ int HandSearch::key(const LatticePoint& point) const {
   return (point.k * side + point.j + plane_.half()) * side + point.i + plane_.half();
 }
 
-StepAnswer HandSearch::step(const LatticePoint& from, const LatticePoint& to) {
+StepAnswer HandSearch::step(const LatticePoint& from, const LatticePoint& to,
+                            const EndTest& may_end) {
   const Eigen::VectorXd& q_from = stands_.at(key(from)).q;
   const auto known = stands_.find(key(to));
   if (known != stands_.end()) {
@@ -52,8 +49,13 @@ StepAnswer HandSearch::step(const LatticePoint& from, const LatticePoint& to) {
     refusal_ = reach_.reason();
     return StepAnswer::NotFromThere;
   }
-  const bool is_free = reach_.is_free(*q);
-  if (!is_free) refusal_ = reach_.reason();
+  bool is_free = reach_.is_free(*q);
+  if (!is_free) {
+    refusal_ = reach_.reason();
+  } else if (may_end && plane_.is_exit(to) && !may_end(*q)) {
+    is_free = false;
+    refusal_ = "too little room at the end";
+  }
   stands_[key(to)] = {is_free, std::move(*q)};
   return is_free ? StepAnswer::Yes : StepAnswer::Never;
 }
@@ -63,7 +65,7 @@ bool HandSearch::certify(const PlaneSearchResult& found, SearchedWay& way) {
   for (const LatticePoint& point : found.path) {
     points.push_back(reach_.with_opening(stands_.at(key(point)).q));
   }
-  CertifiedPath proved = certified_path(reach_.checker(), points, options_.certificate);
+  CertifiedPath proved = certified_path(reach_.checker(), points, certificate_);
   if (proved.reached + 1 < points.size()) {
     plane_.forbid(found.path[proved.reached], found.path[proved.reached + 1]);
     refusal_ = describe(proved.obstacle.hit);
@@ -71,6 +73,7 @@ bool HandSearch::certify(const PlaneSearchResult& found, SearchedWay& way) {
   }
   way.found = true;
   way.path.assign(proved.path.rbegin(), proved.path.rend());
+  way.points.assign(points.rbegin(), points.rend());
   for (auto point = found.path.rbegin(); point != found.path.rend(); ++point) {
     way.poses.push_back(pose(*point));
   }
@@ -89,12 +92,13 @@ std::string HandSearch::explain(const PlaneSearchResult& found) const {
   }
 }
 
-SearchedWay HandSearch::way_from(const LatticePoint& start, const Eigen::VectorXd& q) {
+SearchedWay HandSearch::way_from(const LatticePoint& start, const Eigen::VectorXd& q,
+                                 const EndTest& may_end) {
   stands_.clear();
   stands_[key(start)] = {true, q};
   refusal_.clear();
-  const StepTest may_step = [this](const LatticePoint& from, const LatticePoint& to) {
-    return step(from, to);
+  const StepTest may_step = [&](const LatticePoint& from, const LatticePoint& to) {
+    return step(from, to, may_end);
   };
   SearchedWay way;
   for (int round = 0; round < kMostRounds; ++round) {

@@ -3,33 +3,39 @@
 // proved free is forbidden and the search goes on, a bounded number of times.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "hand_reach.hpp"
-#include "handey/approach/approach.hpp"
 #include "handey/approach/plane_search.hpp"
-#include "obstacle_layers.hpp"
+#include "handey/collision/certificate.hpp"
 
 namespace handey {
+
+/// May a way end with the arm there?
+using EndTest = std::function<bool(const Eigen::VectorXd&)>;
 
 /// A certified way in, or why there is none.
 struct SearchedWay {
   bool found = false;
-  std::vector<Configuration> path;  ///< from the start to the grasp
-  std::vector<PlanarPose> poses;    ///< of the hand in G, likewise; before the path was shortened
+  std::vector<Configuration> path;    ///< from the start to the grasp
+  std::vector<PlanarPose> poses;      ///< of the hand in G, likewise; before the path was shortened
+  std::vector<Configuration> points;  ///< one for each pose
   std::string reason;
 };
 
 class HandSearch {
  public:
-  /// @param obstacles  in the frame of the aim: the grasp plane, x along the approach from the aim
-  HandSearch(const GripperOutline& outline, const ObstacleLayers& obstacles, HandReach& reach,
-             const PlanarPose& aim, const ApproachOptions& options, double cell);
+  /// @param plane  in the frame of the aim: the grasp plane, x along the approach from the aim
+  HandSearch(PlaneSearch plane, HandReach& reach, const PlanarPose& aim,
+             const CertificateOptions& certificate);
 
   /// @param q  the arm at the start, free
-  SearchedWay way_from(const LatticePoint& start, const Eigen::VectorXd& q);
+  /// @param may_end  asked of the arm where a way would end; may be left out
+  SearchedWay way_from(const LatticePoint& start, const Eigen::VectorXd& q,
+                       const EndTest& may_end = {});
 
   const PlaneSearch& plane() const { return plane_; }
   /// Of the hand in G.
@@ -40,7 +46,7 @@ class HandSearch {
     bool is_free;
     Eigen::VectorXd q;
   };
-  StepAnswer step(const LatticePoint& from, const LatticePoint& to);
+  StepAnswer step(const LatticePoint& from, const LatticePoint& to, const EndTest& may_end);
   int key(const LatticePoint& point) const;
   /// @return false if an edge was refused, which is then forbidden
   bool certify(const PlaneSearchResult& found, SearchedWay& way);
@@ -48,7 +54,7 @@ class HandSearch {
 
   HandReach& reach_;
   const PlanarPose aim_;
-  const ApproachOptions& options_;
+  const CertificateOptions certificate_;
   PlaneSearch plane_;
   std::unordered_map<int, Stand> stands_;  // where the arm was asked to be
   std::string refusal_;                    // the last

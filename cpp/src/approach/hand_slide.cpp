@@ -28,18 +28,19 @@ std::vector<Eigen::Vector2d> ahead_of(const PlanarPose& pose,
 }  // namespace
 
 HandSlider::HandSlider(const GripperOutline& outline, const ObstacleLayers& obstacles,
-                       HandReach& reach, const PlanarPose& aim, const ApproachOptions& options)
+                       HandReach& reach, const PlanarPose& aim, double cell,
+                       const QuasipotentialOptions& options)
     : outline_(outline),
       obstacles_(obstacles),
       reach_(reach),
       aim_(aim),
+      cell_(cell),
       options_(options),
       grids_(kLevels) {}
 
 const MotionGrid& HandSlider::grid(int level) {
   std::unique_ptr<MotionGrid>& grid = grids_[static_cast<std::size_t>(level)];
-  if (!grid)
-    grid = std::make_unique<MotionGrid>(obstacles_.draw(std::ldexp(options_.cell, -level)));
+  if (!grid) grid = std::make_unique<MotionGrid>(obstacles_.draw(std::ldexp(cell_, -level)));
   return *grid;
 }
 
@@ -57,15 +58,14 @@ HandSlide HandSlider::run(const PlanarPose& start, const Eigen::VectorXd& q_star
   for (int level = 0; level < kLevels; ++level) {
     slide(level, route, way);
     way.at_aim = is_at_aim(way.slide.path.back());
-    // Obstacles at the destination are known to the grids only.
-    if (!way.at_aim && !options_.destination_obstacles_join) close_in(way);
+    if (!way.at_aim) close_in(way);
     if (way.at_aim || way.slide.status == SlideStatus::Reached) break;
   }
   return way;
 }
 
 void HandSlider::slide(int level, const std::vector<Eigen::Vector2d>& route, HandSlide& so_far) {
-  QuasipotentialOptions options = options_.slide;
+  QuasipotentialOptions options = options_;
   options.clearance = std::ldexp(options.clearance, -level);
   std::vector<Eigen::VectorXd> q{so_far.q.back()};
   bool at_start = true;
@@ -100,7 +100,7 @@ void HandSlider::close_in(HandSlide& so_far) {
   const double travel =
       std::hypot(aim_.x - from.x, aim_.y - from.y) + outline_.radius * std::abs(turn);
   const std::vector<PlanarPose> line =
-      planar_line(from, aim_, static_cast<int>(std::ceil(travel / options_.cell)) + 1);
+      planar_line(from, aim_, static_cast<int>(std::ceil(travel / cell_)) + 1);
   std::vector<Eigen::VectorXd> q{so_far.q.back()};
   for (const PlanarPose& pose : line) {
     std::optional<Eigen::VectorXd> next = reach_.follow_free(pose, q.back());

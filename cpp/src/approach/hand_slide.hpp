@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hand_reach.hpp"
-#include "handey/approach/approach.hpp"
+#include "handey/approach/quasipotential.hpp"
 #include "obstacle_layers.hpp"
 
 namespace handey {
@@ -25,7 +25,7 @@ struct HandSlide {
 class HandSlider {
  public:
   HandSlider(const GripperOutline& outline, const ObstacleLayers& obstacles, HandReach& reach,
-             const PlanarPose& aim, const ApproachOptions& options);
+             const PlanarPose& aim, double cell, const QuasipotentialOptions& options);
 
   /// @param q_start  the arm at `start`, free
   /// @param route  the attraction point moves along it; it ends at the aim
@@ -44,7 +44,8 @@ class HandSlider {
   const ObstacleLayers& obstacles_;
   HandReach& reach_;
   PlanarPose aim_;
-  const ApproachOptions& options_;
+  double cell_;
+  QuasipotentialOptions options_;
   std::vector<std::unique_ptr<MotionGrid>> grids_;  // drawn when first needed
 };
 

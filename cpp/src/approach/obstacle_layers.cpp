@@ -3,8 +3,6 @@
 
 #include <Eigen/Geometry>
 
-#include "handey/grasp/backproject.hpp"
-
 namespace handey {
 
 namespace {
@@ -39,18 +37,14 @@ Eigen::AlignedBox3d bounding_box(const Shape& shape, const Pose& X_GB) {
 
 }  // namespace
 
-ObstacleLayers::ObstacleLayers(const GraspScene& scene, const GripperOutline& outline,
-                               const Pose& X_WG, const Pose& X_PG, const Eigen::Vector2d& centre,
-                               double half_size, bool destination_too)
+ObstacleLayers::ObstacleLayers(const Cell& cell, const GripperOutline& outline, const Pose& X_WG,
+                               const Eigen::Vector2d& centre, double half_size)
     : centre_(centre), half_size_(half_size), layers_(outline.pieces.size()) {
   const Pose X_GW = X_WG.inverse(Eigen::Isometry);
-  for (const Body& fixture : scene.cell.fixtures) add(fixture, X_GW * fixture.X_WB, outline);
-  for (const Body& part : scene.cell.parts) add(part, X_GW * part.X_WB, outline);
-  if (!destination_too) return;
-  const Pose X_GP = X_PG.inverse(Eigen::Isometry);
-  const double radius = half_size + centre.norm();
-  for (const NearbyBody& near : nearby_bodies(scene.cell, scene.part, scene.X_WP_goal, radius)) {
-    if (near.at_destination) add(scene.cell.body(near.body), X_GP * near.X_PB, outline);
+  for (const Body& fixture : cell.fixtures) add(fixture, X_GW * fixture.X_WB, outline);
+  for (std::size_t i = 0; i < cell.parts.size(); ++i) {
+    if (cell.held && cell.held->part == static_cast<int>(i)) continue;
+    add(cell.parts[i], X_GW * cell.parts[i].X_WB, outline);
   }
 }
 

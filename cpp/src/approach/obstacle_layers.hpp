@@ -8,18 +8,17 @@
 
 #include "handey/approach/bump_lines.hpp"
 #include "handey/approach/grid.hpp"
-#include "handey/grasp/legality.hpp"
+#include "handey/world/cell.hpp"
 
 namespace handey {
 
 class ObstacleLayers {
  public:
-  /// @param X_WG grasp plane in the world, @param X_PG in the part
+  /// All fixtures and parts of the cell but the part that is held.
+  /// @param X_WG grasp plane in the world
   /// @param half_size of the square about `centre` in G that matters [m]
-  /// @param destination_too  obstacles at the destination, moved by T^-1, stand in the way as well
-  ObstacleLayers(const GraspScene& scene, const GripperOutline& outline, const Pose& X_WG,
-                 const Pose& X_PG, const Eigen::Vector2d& centre, double half_size,
-                 bool destination_too);
+  ObstacleLayers(const Cell& cell, const GripperOutline& outline, const Pose& X_WG,
+                 const Eigen::Vector2d& centre, double half_size);
 
   MotionGrid draw(double cell) const;
   /// The cells wholly inside obstacles alone.

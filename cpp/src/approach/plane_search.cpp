@@ -27,16 +27,18 @@ void require(bool good, const std::string& message) {
   if (!good) throw InvalidInput("E_RANGE", "plane search", message);
 }
 
-void require_valid(const MotionGrid& touched, const MotionGrid& full, const GripperOutline& outline,
-                   const PlanarPose& anchor, double exit, const PlaneSearchOptions& options) {
+void require_valid(const MotionGrid& touched, const GripperOutline& outline, const MotionGrid& full,
+                   const GripperOutline& core, const PlanarPose& anchor, double exit,
+                   const PlaneSearchOptions& options) {
   if (!std::isfinite(anchor.x) || !std::isfinite(anchor.y) || !std::isfinite(anchor.theta) ||
       !std::isfinite(exit) || !std::isfinite(options.close_cost)) {
     throw InvalidInput("E_NUMBER", "plane search", "anchor, exit and costs must be finite numbers");
   }
   require(touched.side() == full.side() && touched.cell() == full.cell() &&
-              touched.corner() == full.corner() && touched.layers() == full.layers(),
-          "the two grids must have the same place, cell and layers");
-  require(static_cast<std::size_t>(touched.layers()) == outline.pieces.size(),
+              touched.corner() == full.corner(),
+          "the two grids must have the same place and cell");
+  require(static_cast<std::size_t>(touched.layers()) == outline.pieces.size() &&
+              static_cast<std::size_t>(full.layers()) == core.pieces.size(),
           "there must be one layer for each piece of the gripper");
   require(touched.is_inside({anchor.x, anchor.y}), "the anchor lies outside the grid");
   require(exit > 0.0 && exit <= 2.0, "exit " + std::to_string(exit) + " m must be in (0, 2]");
@@ -52,12 +54,17 @@ void require_valid(const MotionGrid& touched, const MotionGrid& full, const Grip
 PlaneSearch::PlaneSearch(const MotionGrid& touched, const MotionGrid& full,
                          const GripperOutline& outline, const PlanarPose& anchor, double exit,
                          const PlaneSearchOptions& options)
+    : PlaneSearch(touched, outline, full, outline, anchor, exit, options) {}
+
+PlaneSearch::PlaneSearch(const MotionGrid& touched, const GripperOutline& outline,
+                         const MotionGrid& full, const GripperOutline& core,
+                         const PlanarPose& anchor, double exit, const PlaneSearchOptions& options)
     : options_(options), anchor_(anchor), cell_(touched.cell()), exit_(exit) {
-  require_valid(touched, full, outline, anchor, exit, options);
+  require_valid(touched, outline, full, core, anchor, exit, options);
   half_ = static_cast<int>(std::ceil(exit / cell_ - 1e-9)) + 2;
   const std::size_t side = static_cast<std::size_t>(2 * half_ + 1);
   kind_.assign(side * side * static_cast<std::size_t>(options.directions), kFree);
-  classify(touched, full, outline);
+  classify(touched, outline, full, core);
   close_border();
   spread_costs();
 }
@@ -118,11 +125,10 @@ void PlaneSearch::forbid(const LatticePoint& a, const LatticePoint& b) {
   forbidden_.insert(std::minmax(index(a), index(b)));
 }
 
-void PlaneSearch::classify(const MotionGrid& touched, const MotionGrid& full,
-                           const GripperOutline& outline) {
+void PlaneSearch::classify(const MotionGrid& touched, const GripperOutline& outline,
+                           const MotionGrid& full, const GripperOutline& core) {
   const Eigen::Vector2d at(anchor_.x, anchor_.y);
-  const HandMasks close(touched, outline, at, half_, false),
-      blocked(full, outline, at, half_, true);
+  const HandMasks close(touched, outline, at, half_, false), blocked(full, core, at, half_, true);
   for (int k = 0; k < options_.directions; ++k) {
     const double theta = pose({0, 0, k}).theta;
     const PointMask is_close = close.at(theta), is_blocked = blocked.at(theta);

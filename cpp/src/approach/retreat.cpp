@@ -8,10 +8,10 @@
 #include <string>
 
 #include "certified_path.hpp"
-#include "handey/collision/box_certificate.hpp"
 #include "handey/collision/contact_motion.hpp"
 #include "handey/errors.hpp"
 #include "reason.hpp"
+#include "room.hpp"
 
 namespace handey {
 
@@ -126,19 +126,23 @@ std::string leave_contact(CollisionChecker& in_contact, CollisionChecker& clear,
          " to spare: it fits too closely to be moved out";
 }
 
-/// The last point, not nearer than `least`, at which the first three joints are free by `room` to
-/// either side; the farthest if there is none.
-std::size_t last_with_room(CollisionChecker& clear, const std::vector<Configuration>& points,
-                           const std::vector<double>& at, std::size_t farthest,
-                           const RetreatOptions& options) {
-  if (options.room <= 0.0) return farthest;
-  BoxProver prover(clear, options.certificate.clearance);
-  Eigen::VectorXd half = Eigen::VectorXd::Zero(points.front().q.size());
-  half.head(std::min<Eigen::Index>(3, half.size())).setConstant(options.room);
-  for (std::size_t i = farthest + 1; i-- > 0 && at[i] >= options.least - 1e-9;) {
-    if (prover.prove({points[i], half}).free) return i;
-  }
-  return farthest;
+/// Ends the path at the last point, not nearer than `least`, at which there is room.
+/// @return false, and the path as it was, if there is none
+bool draw_back(CollisionChecker& clear, const std::vector<Configuration>& points,
+               const std::vector<double>& at, const RetreatOptions& options,
+               CertifiedPath& proved) {
+  const std::size_t first = static_cast<std::size_t>(
+      std::lower_bound(at.begin(), at.end(), options.least - 1e-9) - at.begin());
+  const auto end = points.begin() + static_cast<std::ptrdiff_t>(proved.reached) + 1;
+  const std::optional<std::size_t> roomy = last_with_room(
+      clear, {points.begin(), end}, first, options.room, options.certificate.clearance);
+  if (!roomy) return false;
+  if (*roomy == proved.reached) return true;
+  const auto there = points.begin() + static_cast<std::ptrdiff_t>(*roomy) + 1;
+  CertifiedPath shorter = certified_path(clear, {points.begin(), there}, options.certificate);
+  if (shorter.reached != *roomy) return false;
+  proved = std::move(shorter);
+  return true;
 }
 
 }  // namespace
@@ -185,12 +189,7 @@ RetreatResult plan_retreat(CollisionChecker& in_contact, CollisionChecker& clear
   CertifiedPath proved = certified_path(clear, points, options.certificate);
   if (proved.reached + 1 < points.size()) stop = describe(proved.obstacle.hit);
   const std::size_t farthest = proved.reached;
-  const std::size_t roomy = last_with_room(clear, points, at, farthest, options);
-  if (roomy < farthest) {
-    points.resize(roomy + 1);
-    CertifiedPath shorter = certified_path(clear, points, options.certificate);
-    if (shorter.reached == roomy) proved = std::move(shorter);
-  }
+  if (options.room > 0.0) result.has_room = draw_back(clear, points, at, options, proved);
   result.path.insert(result.path.end(), proved.path.begin(), proved.path.end());
   result.travelled = at[proved.reached];
   result.found = result.travelled >= options.least - 1e-9;

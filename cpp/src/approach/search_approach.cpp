@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "reason.hpp"
 #include "slide_approach.hpp"
@@ -29,9 +30,8 @@ Pose frame_of_aim(const PlanarPose& aim) {
 
 SearchApproach::SearchApproach(const ApproachTask& task, HandReach& reach)
     : task_(task),
-      obstacles_(task.scene, task.outline, task.X_WG * frame_of_aim(task.aim.in_plane),
-                 task.pair.pair.X_PG * frame_of_aim(task.aim.in_plane), {0.0, 0.0},
-                 task.half_size(), false),
+      obstacles_(reach.checker().cell(), task.outline, task.X_WG * frame_of_aim(task.aim.in_plane),
+                 {0.0, 0.0}, task.half_size()),
       reach_(reach) {}
 
 void SearchApproach::take(SearchedWay&& way, const GraspPose& grasp, ApproachResult& result) const {
@@ -150,7 +150,10 @@ ApproachResult SearchApproach::run() {
   result.planner = ApproachPlanner::PlaneSearch;
   for (int level = 0; level < task_.options.search_levels; ++level) {
     const double cell = std::ldexp(task_.options.cell, -level);
-    HandSearch search(task_.outline, obstacles_, reach_, task_.aim.in_plane, task_.options, cell);
+    const ApproachOptions& options = task_.options;
+    PlaneSearch plane(obstacles_.draw(cell), obstacles_.draw_inside(cell), task_.outline, {},
+                      options.run_in, options.search);
+    HandSearch search(std::move(plane), reach_, task_.aim.in_plane, options.certificate);
     if (try_aim(search, result) || try_neighbours(search, result)) return result;
     result.reason += " (lattice of " + millimetres(cell) + ")";
   }

@@ -5,6 +5,7 @@
 
 #include "approach_task.hpp"
 #include "hand_search.hpp"
+#include "obstacle_layers.hpp"
 
 namespace handey {
 

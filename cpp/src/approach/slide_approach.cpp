@@ -4,13 +4,11 @@
 #include "slide_approach.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "certified_path.hpp"
-#include "handey/approach/clearance_path.hpp"
 #include "reason.hpp"
 
 namespace handey {
@@ -21,58 +19,19 @@ constexpr double kPi = 3.14159265358979323846;
 // Choice: two configurations that differ less are the same; far above rounding, far below what
 // moves a finger.
 constexpr double kSameConfiguration = 1e-6;  // [rad]
-// Choice: starts, turned about the fingertips; the article takes any cell of the grid's border.
-constexpr std::array<double, 11> kTurnsDeg = {0, 15, -15, 30, -30, 45, -45, 60, -60, 90, -90};
 
 }  // namespace
 
 SlideApproach::SlideApproach(const ApproachTask& task, HandReach& reach)
     : task_(task),
-      obstacles_(task.scene, task.outline, task.X_WG, task.pair.pair.X_PG,
-                 {task.aim.in_plane.x, task.aim.in_plane.y}, task.half_size(),
-                 task.options.destination_obstacles_join),
+      obstacles_(reach.checker().cell(), task.outline, task.X_WG,
+                 {task.aim.in_plane.x, task.aim.in_plane.y}, task.half_size()),
       reach_(reach),
-      slider_(task.outline, obstacles_, reach, task.aim.in_plane, task.options),
+      slider_(task.outline, obstacles_, reach, task.aim.in_plane, task.options.cell,
+              task.options.slide),
       least_distance_(std::numeric_limits<double>::infinity()) {
   nearest_.status = ApproachStatus::StartBlocked;
   nearest_.planner = ApproachPlanner::Quasipotential;
-}
-
-/// Where the way of greatest clearance begins; the hand turned as in the grasp, or, where that way
-/// is the finger tips' alone, along it.
-std::optional<SlideApproach::Start> SlideApproach::widest_start() {
-  const PlanarPose& aim = task_.aim.in_plane;
-  ClearancePath way = clearance_path(slider_.grid(), task_.outline, aim, task_.options.run_in);
-  if (!way.found()) return std::nullopt;
-  const Eigen::Vector2d& first = way.points.front();
-  double theta = aim.theta;
-  if (!way.whole_hand) {
-    const Eigen::Vector2d along = way.points[way.points.size() / 2] - first;
-    if (along.norm() > 0.0) theta = std::atan2(along.y(), along.x());
-  }
-  const PlanarPose start{first.x(), first.y(), theta};
-  return Start{start, std::move(way.points)};
-}
-
-/// Straight back first, shorter, then turned.
-std::vector<SlideApproach::Start> SlideApproach::turned_starts() const {
-  const PlanarPose& aim = task_.aim.in_plane;
-  const ApproachOptions& options = task_.options;
-  std::vector<double> distances{options.run_in};
-  if (options.least_run_in < options.run_in) {
-    distances.push_back(0.5 * (options.run_in + options.least_run_in));
-    distances.push_back(options.least_run_in);
-  }
-  std::vector<Start> result;
-  for (const double turn : kTurnsDeg) {
-    const double theta = aim.theta + turn * kPi / 180.0;
-    for (const double distance : distances) {
-      const PlanarPose pose{aim.x - distance * std::cos(theta), aim.y - distance * std::sin(theta),
-                            theta};
-      result.push_back({pose, {{aim.x, aim.y}}});
-    }
-  }
-  return result;
 }
 
 const Eigen::VectorXd* same_configuration(const std::vector<Eigen::VectorXd>& legal,
@@ -147,7 +106,7 @@ void SlideApproach::certify(const HandSlide& way, ApproachResult& result) {
   result.status = ApproachStatus::Found;
 }
 
-ApproachResult SlideApproach::slide_from(const Start& start, const Eigen::VectorXd& q_start) {
+ApproachResult SlideApproach::slide_from(const SlideStart& start, const Eigen::VectorXd& q_start) {
   ApproachResult result;
   result.planner = ApproachPlanner::Quasipotential;
   HandSlide way = slider_.run(start.pose, q_start, start.route);
@@ -157,7 +116,7 @@ ApproachResult SlideApproach::slide_from(const Start& start, const Eigen::Vector
 }
 
 /// @return true if the slide came in: it is then the nearest
-bool SlideApproach::slide_in(const Start& start) {
+bool SlideApproach::slide_in(const SlideStart& start) {
   const PlanarPose& aim = task_.aim.in_plane;
   const std::optional<Eigen::VectorXd> q = reach_.lead(aim, start.pose, task_.q_pick);
   if (!q || !reach_.follow_free(start.pose, *q)) {
@@ -177,10 +136,13 @@ bool SlideApproach::slide_in(const Start& start) {
 }
 
 ApproachResult SlideApproach::run() {
-  const std::optional<Start> widest = widest_start();
+  const ApproachOptions& options = task_.options;
+  const PlanarPose& aim = task_.aim.in_plane;
+  const std::optional<SlideStart> widest =
+      widest_start(slider_.grid(), task_.outline, aim, options.run_in);
   if (widest && slide_in(*widest)) return nearest_;
-  for (const Start& start : turned_starts()) {
-    if (slides_ >= task_.options.most_slides) break;
+  for (const SlideStart& start : turned_starts(aim, options.run_in, options.least_run_in)) {
+    if (slides_ >= options.most_slides) break;
     if (slide_in(start)) return nearest_;
   }
   const std::string blocked_text =

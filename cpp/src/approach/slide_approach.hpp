@@ -3,12 +3,12 @@
 // grasp of its own.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "approach_task.hpp"
 #include "hand_slide.hpp"
+#include "slide_starts.hpp"
 
 namespace handey {
 
@@ -20,14 +20,8 @@ class SlideApproach {
   ApproachResult run();
 
  private:
-  struct Start {
-    PlanarPose pose;
-    std::vector<Eigen::Vector2d> route;
-  };
-  std::optional<Start> widest_start();
-  std::vector<Start> turned_starts() const;
-  bool slide_in(const Start& start);
-  ApproachResult slide_from(const Start& start, const Eigen::VectorXd& q_start);
+  bool slide_in(const SlideStart& start);
+  ApproachResult slide_from(const SlideStart& start, const Eigen::VectorXd& q_start);
   bool settle_grasp(HandSlide& way, ApproachResult& result);
   bool test_stop(const HandSlide& way, ApproachResult& result);
   void certify(const HandSlide& way, ApproachResult& result);

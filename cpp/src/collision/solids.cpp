@@ -204,4 +204,9 @@ SolidScene describe_solids(CollisionChecker& checker) {
   return scene;
 }
 
+std::vector<InnerSolid> held_solids(CollisionChecker& checker) {
+  const CollisionChecker::Impl& impl = checker.impl();
+  return impl.cell.held ? inner_solids(*impl.movers.back().geometry) : std::vector<InnerSolid>{};
+}
+
 }  // namespace handey

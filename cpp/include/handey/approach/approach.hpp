@@ -27,7 +27,7 @@ struct ApproachOptions {
   CertificateOptions certificate;
   double contact_share = 0.3;  ///< accepted overlap of the pad with the unobstructed faces
   bool destination_obstacles_join = false;  ///< article: obstacles moved by T^-1 stand in the way
-                                            ///< of the approach too; then only slides are tried
+                                            ///< of the approaching hand too
   PlaneSearchOptions search;
   int search_levels = 1;  ///< lattices searched where the slides stall: of `cell`, then half of it,
                           ///< at most 3; 0: no search. Each costs eight times the one before.

@@ -66,6 +66,12 @@ class PlaneSearch {
   /// an anchor off the grid, options out of range, a lattice of more than 2^26 points
   PlaneSearch(const MotionGrid& touched, const MotionGrid& full, const GripperOutline& outline,
               const PlanarPose& anchor, double exit, const PlaneSearchOptions& options = {});
+  /// For a hand whose pieces are not prisms along the closing axis, as with a part in it.
+  /// @param outline  contains the hand; its pieces are the layers of `touched`
+  /// @param core     prisms that lie within the hand; its pieces are the layers of `full`
+  PlaneSearch(const MotionGrid& touched, const GripperOutline& outline, const MotionGrid& full,
+              const GripperOutline& core, const PlanarPose& anchor, double exit,
+              const PlaneSearchOptions& options = {});
 
   /// Is there a way out of the point for the hand alone, no step asked about?
   bool is_open(const LatticePoint& point) const;
@@ -93,7 +99,8 @@ class PlaneSearch {
   void steps(int from, Step (&out)[kSteps]) const;
   int entry_cost(int to, int cost) const;
   void close_border();
-  void classify(const MotionGrid& touched, const MotionGrid& full, const GripperOutline& outline);
+  void classify(const MotionGrid& touched, const GripperOutline& outline, const MotionGrid& full,
+                const GripperOutline& core);
   void spread_costs();
 
   struct Run;  // one find_way_out

@@ -32,6 +32,7 @@ struct RetreatResult {
   /// went, if not found.
   std::vector<Configuration> path;
   double travelled = 0.0;  ///< [m]
+  bool has_room = false;   ///< it ends where `room` is free; false if that was not asked
   std::string
       reason;  ///< what stopped it before `most`, with names and numbers; empty if nothing did
 };

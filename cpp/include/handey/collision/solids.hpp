@@ -57,5 +57,7 @@ struct SolidScene {
 };
 
 SolidScene describe_solids(CollisionChecker& checker);
+/// Of what is held alone, in the part's frame; empty if nothing is.
+std::vector<InnerSolid> held_solids(CollisionChecker& checker);
 
 }  // namespace handey

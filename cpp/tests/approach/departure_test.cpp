@@ -1,0 +1,173 @@
+// A hand with a part in it finds its way out of a pocket that no straight motion leads out of; an
+// open hand round a part likewise.
+#include "handey/approach/departure.hpp"
+
+#include <cmath>
+
+#include "handey/approach/retreat.hpp"
+#include "handey/collision/box_certificate.hpp"
+#include "handey/errors.hpp"
+#include "puma_scene.hpp"
+
+namespace handey {
+namespace {
+
+using namespace test;
+
+constexpr double kPi = 3.14159265358979323846;
+const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+
+/// The hand over the part, pointing down, closing along x of the world: the grasp plane is upright.
+Pose hand_on_part(const Cell& cell) {
+  Pose X_WH = Pose::Identity();
+  X_WH.linear().col(0) = Eigen::Vector3d::UnitY();
+  X_WH.linear().col(1) = Eigen::Vector3d::UnitX();
+  X_WH.linear().col(2) = -Eigen::Vector3d::UnitZ();
+  X_WH.translation() = cell.parts[0].X_WB.translation();
+  return X_WH;
+}
+
+/// A long block on the table, 16 mm from a stop before its near end and 10 mm from one behind its
+/// far end, a ledge 15 mm over the far end, rails beside it: up, back under no ledge, up again.
+Cell block_in_pocket(double far_ledge = 0.03) {
+  Cell cell = block_on_table({
+      box("near stop", {0.10, 0.01, 0.04}, at(0.5, 0.119, 0.02)),
+      box("far stop", {0.10, 0.01, 0.085}, at(0.5, 0.275, 0.0425)),
+      box("ledge", {0.10, far_ledge, 0.02}, at(0.5, 0.28 - far_ledge / 2, 0.075)),
+      box("left rail", {0.02, 0.10, 0.05}, at(0.446, 0.2, 0.025)),
+      box("right rail", {0.02, 0.10, 0.05}, at(0.554, 0.2, 0.025)),
+  });
+  cell.parts[0].shapes[0].geometry = Box{{0.04, 0.12, 0.05}};
+  return cell;
+}
+
+struct HeldPart {
+  explicit HeldPart(const Cell& standing)
+      : solver(*standing.robot),
+        cell(standing.with_held(0, hand_on_part(standing).inverse() * standing.parts[0].X_WB)),
+        model(make_collision_model(cell)),
+        in_contact(model, cell, {std::nullopt, {{BodyRef::Kind::Fixture, 0}}}),
+        clear(model, cell) {
+    const Pose X_RH = cell.X_WR.inverse() * hand_on_part(standing);
+    for (const InverseSolution& solution : solver.solve(X_RH).solutions) {
+      if (in_contact.is_free({solution.q, 0.04})) {
+        start = {solution.q, 0.04};
+        return;
+      }
+    }
+    ADD_FAILURE() << "no free configuration";
+  }
+
+  RetreatResult retreat(const Configuration& from, const Eigen::Vector3d& direction) {
+    return plan_retreat(in_contact, clear, solver, from, direction);
+  }
+  /// Where a lift has left contact.
+  Configuration lifted() { return retreat(start, kUp).path.at(1); }
+  Eigen::Vector3d moved(const Configuration& from, const Configuration& to) const {
+    return hand_in_world(cell, to.q).translation() - hand_in_world(cell, from.q).translation();
+  }
+
+  SphericalWristSolver solver;
+  Cell cell;
+  std::shared_ptr<const CollisionModel> model;
+  CollisionChecker in_contact, clear;
+  Configuration start;
+};
+
+void expect_good(CollisionChecker& checker, const Configuration& start,
+                 const DepartureResult& result, const DepartureOptions& options = {}) {
+  ASSERT_TRUE(result.found) << result.reason;
+  EXPECT_EQ(result.reason, "");
+  EXPECT_EQ(result.path.front().q, start.q);
+  for (const Configuration& c : result.path) EXPECT_EQ(c.opening, start.opening);
+  EXPECT_TRUE(certify_path(checker, result.path).is_free());
+  expect_free(checker, result.path);
+  // The hand stays in its plane, and goes where the poses say.
+  const Pose X_WH = hand_in_world(checker.cell(), start.q);
+  for (const Configuration& c : result.path) {
+    const Pose X_HN = X_WH.inverse() * hand_in_world(checker.cell(), c.q);
+    EXPECT_NEAR(X_HN.translation().y(), 0.0, 1e-6);
+    EXPECT_NEAR(X_HN.linear()(1, 1), 1.0, 1e-9);
+  }
+  const PlanarPose &first = result.poses.front(), &last = result.poses.back();
+  EXPECT_NEAR(std::hypot(first.x, first.y), 0.0, 1e-9);
+  const Pose X_HN = X_WH.inverse() * hand_in_world(checker.cell(), result.path.back().q);
+  EXPECT_NEAR(X_HN.translation().z(), last.x, 1e-6);
+  EXPECT_NEAR(X_HN.translation().x(), last.y, 1e-6);
+  EXPECT_GE(std::hypot(last.x, last.y), options.least - 1e-9);
+  if (!result.has_room) return;
+  Eigen::VectorXd half = Eigen::VectorXd::Zero(6);
+  half.head<3>().setConstant(options.room);
+  EXPECT_TRUE(BoxProver(checker).prove({result.path.back(), half}).free);
+}
+
+TEST(PlanDeparture, CarriesAPartOutOfAPocketThatNoStraightLeadsOutOf) {
+  HeldPart part(block_in_pocket());
+  const RetreatResult up = part.retreat(part.start, kUp);
+  EXPECT_FALSE(up.found);
+  EXPECT_NE(up.reason.find("ledge"), std::string::npos) << up.reason;
+  ASSERT_GT(up.path.size(), 2u);
+  for (const Configuration& from : {up.path[1], up.path.back()}) {
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double angle = eighth * kPi / 4.0;
+      const Eigen::Vector3d level(std::cos(angle), std::sin(angle), 0.0);
+      EXPECT_FALSE(part.retreat(from, level).found) << eighth;
+    }
+  }
+  DepartureOptions options;
+  for (const int slides : {3, 0}) {
+    options.most_slides = slides;
+    const DepartureResult way =
+        plan_departure(part.clear, part.solver, part.lifted(), options);
+    expect_good(part.clear, part.lifted(), way, options);
+    EXPECT_TRUE(way.has_room);
+    if (slides == 0) {
+      EXPECT_EQ(way.planner, ApproachPlanner::PlaneSearch);
+    }
+    RecordProperty("planner", static_cast<int>(way.planner));
+    std::printf("slides %d planner %d\n", slides, static_cast<int>(way.planner));
+  }
+}
+
+TEST(PlanDeparture, CountsThePartToTheHand) {
+  // A lid over both ends of the part, open in the middle where the hand came in.
+  Cell cell = block_in_pocket();
+  cell.fixtures.push_back(box("near ledge", {0.10, 0.03, 0.02}, at(0.5, 0.129, 0.075)));
+  HeldPart part(cell);
+  const DepartureResult held = plan_departure(part.clear, part.solver, part.lifted());
+  EXPECT_FALSE(held.found);
+  EXPECT_TRUE(held.path.empty());
+  EXPECT_EQ(held.planner, ApproachPlanner::PlaneSearch);
+  EXPECT_FALSE(held.reason.empty());
+  std::printf("%s\n", held.reason.c_str());
+  // The same hand without the part goes straight up.
+  const Cell without = cell.with_part_at(0, at(0.3, -0.4, 0.025));
+  CollisionChecker empty(part.model, without);
+  expect_good(empty, part.lifted(), plan_departure(empty, part.solver, part.lifted()));
+}
+
+TEST(PlanDeparture, RefusesWrongInput) {
+  HeldPart part(block_in_pocket());
+  const Configuration lifted = part.lifted();
+  EXPECT_THROW(plan_departure(part.clear, part.solver, part.start), InvalidInput);  // in contact
+  const auto with = [&](const DepartureOptions& options) {
+    return plan_departure(part.clear, part.solver, lifted, options);
+  };
+  DepartureOptions options;
+  options.least = 0.2;
+  EXPECT_THROW(with(options), InvalidInput);
+  options = {};
+  options.cell = 0.005;
+  EXPECT_THROW(with(options), InvalidInput);
+  options = {};
+  options.search_levels = 4;
+  EXPECT_THROW(with(options), InvalidInput);
+  options = {};
+  options.room = -0.1;
+  EXPECT_THROW(with(options), InvalidInput);
+  Configuration short_of{lifted.q.head(5), lifted.opening};
+  EXPECT_THROW(plan_departure(part.clear, part.solver, short_of), InvalidInput);
+}
+
+}  // namespace
+}  // namespace handey
