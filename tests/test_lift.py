@@ -9,7 +9,8 @@ import pytest
 
 import handey
 from handey import _core
-from handey.lift import lift
+from handey.lift import Lift, WaysOut, lift
+from handey.pick_and_place import DirectOptions
 from handey.way_out import WayOutOptions, way_out
 
 ROBOT = Path(__file__).resolve().parent.parent / "models" / "robots" / "puma560" / "robot.yaml"
@@ -41,7 +42,8 @@ def under_a_roof(folder: Path, gap: float) -> handey.CellFile:
 
 def test_a_part_under_a_low_roof_is_raised_a_little_and_drawn_out(tmp_path: Path) -> None:
     cell = under_a_roof(tmp_path, gap=0.006)
-    result = handey.plan(cell)
+    straight_only = _core.DepartureOptions(most_slides=0, search_levels=0)
+    result = handey.plan(cell, handey.PlanOptions(direct=DirectOptions(roomier=straight_only)))
     assert result.plan is not None, result.report.reasons
     departs = [m for m in result.plan.report["local_motions"] if m["action"] == "depart"]
     assert [motion["planner"] for motion in departs] == ["two straights"]
@@ -61,6 +63,49 @@ def test_a_part_that_fits_exactly_is_refused_with_the_plain_reason(tmp_path: Pat
     )
     reasons = " ".join(handey.plan(cell).report.reasons)
     assert "still touches" in reasons and "fits too closely to be moved out" in reasons
+
+
+POCKET = (
+    "near_{0}: {{box: [0.10, 0.01, 0.04], pose: {{xyz: [0.5, {1}, 0.02]}}}}",
+    "far_{0}: {{box: [0.10, 0.01, 0.085], pose: {{xyz: [0.5, {2}, 0.0425]}}}}",
+    "ledge_{0}: {{box: [0.10, 0.03, 0.02], pose: {{xyz: [0.5, {3}, 0.075]}}}}",
+    "left_{0}: {{box: [0.02, 0.10, 0.05], pose: {{xyz: [0.446, {4}, 0.025]}}}}",
+    "right_{0}: {{box: [0.02, 0.10, 0.05], pose: {{xyz: [0.554, {4}, 0.025]}}}}",
+)
+
+
+def pocket(name: str, y: float) -> list[str]:
+    """Room for a block of 120 mm: to leave, up 13 mm, 11 to 15 mm from under the ledge, up."""
+    return [line.format(name, y - 0.081, y + 0.075, y + 0.065, y) for line in POCKET]
+
+
+def planners(result: handey.PlanResult, action: str) -> list[str]:
+    return [m.planner for m in result.report.local_motions if m.action == action]
+
+
+@pytest.mark.parametrize("most_slides", [3, 0])
+def test_a_part_leaves_a_pocket_in_the_grasp_plane_and_enters_another(
+    tmp_path: Path, most_slides: int
+) -> None:
+    cell = load(
+        tmp_path,
+        *pocket("from", 0.25),
+        *pocket("to", -0.25),
+        part="{box: [0.04, 0.12, 0.05], pose: {xyz: [0.5, 0.25, 0.025]}}",
+        goal="{xyz: [0.5, -0.25, 0.025]}",
+    )
+    departure = _core.DepartureOptions(most_slides=most_slides)
+    options = handey.PlanOptions(direct=DirectOptions(departure=departure))
+    result = handey.plan(cell, options)
+    assert result.plan is not None, result.report.reasons
+    given = planners(result, "depart") + planners(result, "deposit")
+    assert set(given) <= {"quasipotential", "plane search"}
+    if most_slides == 0:
+        assert given == ["plane search", "plane search"]
+    out = tmp_path / "plan.json"
+    result.plan.save(out)
+    checked = handey.check(tmp_path / "cell.yaml", out)
+    assert checked.ok, checked.faults
 
 
 @pytest.mark.parametrize("depth", [0.0012, 0.02])
@@ -105,13 +150,17 @@ def test_the_arm_is_sampled_only_where_nothing_straight_leads_out(tmp_path: Path
         asked.append(stop)
         return [stop, on] if len(asked) == 1 else []
 
-    usual = lift(model, solver, cell, 0, start, X_HP, _core.RetreatOptions(), sample)
+    def leave(straight: _core.RetreatOptions) -> Lift:
+        none = _core.DepartureOptions(most_slides=0, search_levels=0)
+        return lift(model, solver, cell, 0, start, X_HP, WaysOut(straight, none, none, sample))
+
+    usual = leave(_core.RetreatOptions())
     assert usual and usual.planner == "two straights" and not asked
     beyond_reach = _core.RetreatOptions(least=0.9, most=1.0, step=0.05)
-    sampled = lift(model, solver, cell, 0, start, X_HP, beyond_reach, sample)
+    sampled = leave(beyond_reach)
     assert sampled.planner == "RRT-Connect" and len(asked) == 1
     assert np.array_equal(sampled.path[0].q, start.q) and np.array_equal(sampled.path[-1].q, on.q)
-    none = lift(model, solver, cell, 0, start, X_HP, beyond_reach, sample)
+    none = leave(beyond_reach)
     assert not none and len(asked) == 2 and "900.0 mm are needed" in none.reason
 
 

@@ -33,6 +33,8 @@ __all__: list[str] = [
     "CollisionModel",
     "Configuration",
     "Cylinder",
+    "DepartureOptions",
+    "DepartureResult",
     "DepthImage",
     "DepthMapOptions",
     "EdgeResult",
@@ -58,6 +60,7 @@ __all__: list[str] = [
     "InverseResult",
     "InverseSolution",
     "InverseStatus",
+    "JoinedScene",
     "JointLimit",
     "Lattice",
     "LayerOptions",
@@ -161,6 +164,7 @@ __all__: list[str] = [
     "inspect_surface",
     "intersect",
     "is_convex",
+    "join_destination",
     "largest_inscribed_circle",
     "limit_violation",
     "load_mesh",
@@ -174,6 +178,7 @@ __all__: list[str] = [
     "pad_contact_area",
     "plan_approach",
     "plan_by_sampling",
+    "plan_departure",
     "plan_gross_motion",
     "plan_retreat",
     "planar_faces",
@@ -2621,7 +2626,7 @@ class ApproachOptions:
     @property
     def destination_obstacles_join(self) -> bool:
         """
-        As the article: obstacles moved by T^-1 hinder the approach; only slides are tried.
+        As the article: obstacles moved by T^-1 stand in the way of the approaching hand too.
         """
     @destination_obstacles_join.setter
     def destination_obstacles_join(self, arg0: bool) -> None: ...
@@ -2774,6 +2779,132 @@ class ApproachResult:
     @property
     def status(self) -> ApproachStatus: ...
 
+class JoinedScene:
+    """
+    The origin with copies of what is near the part at its destination.
+    """
+    def checker(self) -> CollisionChecker:
+        """
+        A CollisionChecker of that cell in which the hand alone is kept apart from the copies.
+        """
+    @property
+    def cell(self) -> Cell:
+        """
+        The copies are fixtures: 'wall (destination)'.
+        """
+    @property
+    def copies(self) -> list[BodyRef]:
+        """
+        BodyRefs of the copies.
+        """
+    @property
+    def model(self) -> CollisionModel: ...
+
+class DepartureOptions:
+    """
+    Options of plan_departure.
+    """
+
+    certificate: CertificateOptions
+    search: PlaneSearchOptions
+    slide: QuasipotentialOptions
+    def __init__(
+        self,
+        *,
+        cell: typing.SupportsFloat | typing.SupportsIndex = 0.004,
+        least: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        most: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0002,
+        room: typing.SupportsFloat | typing.SupportsIndex = 0.0175,
+        most_slides: typing.SupportsInt | typing.SupportsIndex = 3,
+        slide: QuasipotentialOptions = ...,
+        search: PlaneSearchOptions = ...,
+        search_levels: typing.SupportsInt | typing.SupportsIndex = 1,
+        certificate: CertificateOptions = ...,
+    ) -> None: ...
+    @property
+    def cell(self) -> float:
+        """
+        Of grid and lattice [m].
+        """
+    @cell.setter
+    def cell(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        Of the whole robot at the poses tried [m].
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def least(self) -> float:
+        """
+        It ends no nearer to its start [m].
+        """
+    @least.setter
+    def least(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most(self) -> float:
+        """
+        Out is that far from the start; it may then end before [m].
+        """
+    @most.setter
+    def most(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most_slides(self) -> int:
+        """
+        0: none.
+        """
+    @most_slides.setter
+    def most_slides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def room(self) -> float:
+        """
+        Ends at the last pose where the first three joints are free by so much [rad]; 0: not asked.
+        """
+    @room.setter
+    def room(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def search_levels(self) -> int:
+        """
+        Lattices searched where no slide comes in, each half as wide; 0: no search.
+        """
+    @search_levels.setter
+    def search_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class DepartureResult:
+    """
+    A way out in the grasp plane, or why there is none; true if found.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def found(self) -> bool: ...
+    @property
+    def has_room(self) -> bool:
+        """
+        It ends where DepartureOptions.room is free; false if that was not asked.
+        """
+    @property
+    def path(self) -> list[Configuration]:
+        """
+        Configurations from the start outwards; every edge certified.
+        """
+    @property
+    def planner(self) -> ApproachPlanner:
+        """
+        ApproachPlanner that found it, or was asked last.
+        """
+    @property
+    def poses(self) -> list[PlanarPose]:
+        """
+        PlanarPose of the hand before the path was shortened; the start is (0, 0, 0).
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why not found, with names and numbers.
+        """
+
 class RetreatOptions:
     """
     Options of plan_retreat.
@@ -2833,6 +2964,11 @@ class RetreatResult:
     def __bool__(self) -> bool: ...
     @property
     def found(self) -> bool: ...
+    @property
+    def has_room(self) -> bool:
+        """
+        It ends where RetreatOptions.room is free; false if that was not asked.
+        """
     @property
     def path(self) -> list[Configuration]:
         """
@@ -4646,6 +4782,48 @@ def plan_by_sampling(
 
     Raises:
         InvalidInput: for no goal, wrong lengths, numbers or options, configurations outside the limits.
+    """
+
+def join_destination(
+    scene: GraspScene, radius: typing.SupportsFloat | typing.SupportsIndex = 0.4
+) -> JoinedScene:
+    """
+    The article's obstacles: those near the destination, moved by T^-1, join the origin's.
+
+    Args:
+        scene: GraspScene.
+        radius: of bodies within that distance of the part's bounding box copies are made [m].
+
+    Returns:
+        JoinedScene.
+
+    Raises:
+        InvalidInput: for a part that the scene does not have, a radius out of range.
+    """
+
+def plan_departure(
+    checker: CollisionChecker,
+    solver: SphericalWristSolver,
+    start: Configuration,
+    options: DepartureOptions = ...,
+) -> DepartureResult:
+    """
+    The way out in the grasp plane, for a hand that holds a part or is open round one.
+
+    The planners of the approach with the held part as part of the hand: the slide in from where there is room,
+    driven backwards; then the complete search in (x, y, theta). A way out of the plane is not looked for.
+
+    Args:
+        checker: CollisionChecker of the cell with what is held.
+        solver: SphericalWristSolver of the robot.
+        start: Configuration, free; its hand's x and z axes span the plane.
+        options: DepartureOptions.
+
+    Returns:
+        DepartureResult.
+
+    Raises:
+        InvalidInput: for wrong lengths, numbers or options, a start that is not free.
     """
 
 def plan_gross_motion(

@@ -2,45 +2,74 @@
 
 Straight first: up, up and away from walls, up and back along the hand, back along the hand. Where
 none goes far enough, from where it came clear of contact: straight on in another direction, level
-ones among them; and if asked, by sampling the whole arm. Reversed, a lift is the end of a deposit.
+ones among them; then by the planners of the approach in the grasp plane, the part being one more
+body of the hand; and if asked, by sampling the whole arm. A way that ends where the gross motion
+starts in a free cell is preferred. Reversed, a lift is the end of a deposit.
 Every edge is certified by the core; while the part has moved less than `contact_travel` the
 contacts that it stood in are allowed, if none gets deeper.
 Not guaranteed: a way that exists is found; a part between walls that it touches on opposite sides
-must be clear of them after that travel.
+must be clear of them after that travel; the planners in the plane leave it nowhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from handey import _core
 
-__all__ = ["Lift", "Sampler", "lift"]
+__all__ = ["PLANNERS", "Lift", "Sampler", "WaysOut", "draw_back", "lift", "roomiest"]
 
 # A certified way for the arm from a configuration out to where there is room, empty if none is
 # found: of the checker of the cell with the part in the hand, and where the arm is.
 Sampler = Callable[[_core.CollisionChecker, _core.Configuration], list[_core.Configuration]]
 
+# How the planners near obstacles are called in reports.
+PLANNERS = {
+    "Straight": "straight",
+    "Quasipotential": "quasipotential",
+    "PlaneSearch": "plane search",
+    "Arm": "RRT-Connect",
+}
 # Choice: level directions, and how far each is tried [m], for a part that also touches walls.
 DIRECTIONS_AWAY, STEP_AWAY = 16, 1.5e-3
 DIRECTIONS_ON = 8  # Choice: level directions in which a lift that stops short goes on
 
 
 @dataclass(frozen=True)
-class Lift:
-    """A way out of contact, or why there is none; true if found.
+class WaysOut:
+    """The planners of a way out, in the order in which they are asked, and their budgets.
 
     Attributes:
-        path: from the contact outwards, certified.
-        planner: what gave it: "straight", "two straights" or "RRT-Connect".
+        straight: how far, and how finely.
+        in_plane: in the grasp plane, where nothing straight leads out.
+        roomier: the same, where something straight does, but ends with little room.
+        sample: asked for a way for the arm where nothing else leads out.
+    """
+
+    straight: _core.RetreatOptions
+    in_plane: _core.DepartureOptions
+    roomier: _core.DepartureOptions
+    sample: Sampler
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A way out, of contact or round a part, or why there is none; true if found.
+
+    Attributes:
+        path: outwards, certified.
+        planner: what gave it: "straight", "two straights", "quasipotential", "plane search",
+            "RRT-Connect".
+        has_room: it ends where the first three joints are free some way to either side.
         reason: why there is none, with names and numbers.
     """
 
     path: list[_core.Configuration] = field(default_factory=list)
     planner: str = "straight"
+    has_room: bool = False
     reason: str = ""
 
     def __bool__(self) -> bool:
@@ -54,10 +83,9 @@ def lift(
     part: int,
     start: _core.Configuration,
     X_HP: np.ndarray,
-    options: _core.RetreatOptions,
-    sample: Sampler,
+    out: WaysOut,
 ) -> Lift:
-    """The longest of a few lifts of a part, held at `start`, off what it touches.
+    """Carry a part, held at `start`, off what it touches and out to where there is room.
 
     Args:
         model: collision geometry of the cell.
@@ -66,8 +94,7 @@ def lift(
         part: index of the part.
         start: the hand closed on it.
         X_HP: the part in the grasp frame (4, 4).
-        options: how far, and how finely.
-        sample: asked for a way on for the arm where nothing straight leads out.
+        out: the planners.
     """
     touches = _core.touching_bodies(model, cell, part)
     held = cell.with_held(part, X_HP)
@@ -77,25 +104,107 @@ def lift(
     away = _away(model, cell, part) if len(touches) > 1 else None
     best, short, reason = None, None, ""
     for direction in _directions(back, away):
-        result = _core.plan_retreat(in_contact, clear, solver, start, direction, options)
-        if result.found and (best is None or result.travelled > best.travelled):
+        result = _core.plan_retreat(in_contact, clear, solver, start, direction, out.straight)
+        rank = (result.has_room, result.travelled)
+        if result.found and (best is None or rank > (best.has_room, best.travelled)):
             best = result
-        if result.found and result.travelled >= 0.99 * options.most:
+        if result.found and result.travelled >= 0.99 * out.straight.most:
             break
         if not result.found and len(result.path) > 1 and short is None:
             short = result
         reason = reason or result.reason
-    if best is not None:
-        return Lift(list(best.path))
-    if short is None:
+    begun = best or short
+    if begun is None:
         return Lift(reason=reason)
-    path = _go_on(clear, solver, short.path, back, options)
-    if path:
-        return Lift(path, "two straights")
-    way = sample(clear, short.path[-1])
+
+    def ways() -> Iterator[Lift]:
+        if best is not None:
+            straight = Lift(list(best.path), has_room=best.has_room)
+        else:
+            straight = _go_on(clear, solver, begun.path, back, out.straight)
+        yield straight
+        in_plane = out.roomier if straight else out.in_plane
+        yield from _in_plane(clear, solver, begun.path, in_plane)
+
+    found = roomiest(ways())
+    if found:
+        return found
+    way = out.sample(clear, begun.path[-1])
     if way:
-        return Lift([*short.path, *way[1:]], "RRT-Connect")
+        return Lift([*begun.path, *way[1:]], PLANNERS["Arm"])
     return Lift(reason=reason)
+
+
+def draw_back(
+    checker: _core.CollisionChecker,
+    solver: _core.SphericalWristSolver,
+    start: _core.Configuration,
+    out: WaysOut,
+) -> Lift:
+    """Draw the open hand back from a part that stands: straight, in the grasp plane, by the arm.
+
+    Args:
+        checker: of the cell with an empty hand.
+        solver: inverse kinematics of the arm.
+        start: the hand open round the part.
+        out: the planners.
+    """
+    hand = _core.hand_in_world(checker.cell, start.q)
+    reason = ""
+
+    def ways() -> Iterator[Lift]:
+        nonlocal reason
+        found = False
+        for angle in (0.0, 0.35, -0.35, 0.8, -0.8):
+            direction = np.sin(angle) * hand[:3, 0] - np.cos(angle) * hand[:3, 2]
+            result = _core.plan_retreat(checker, checker, solver, start, direction, out.straight)
+            reason = reason or result.reason
+            if result.found:
+                found = True
+                yield Lift(list(result.path), has_room=result.has_room)
+        in_plane = out.roomier if found else out.in_plane
+        yield from _in_plane(checker, solver, [start], in_plane)
+
+    found = roomiest(ways())
+    if found:
+        return found
+    way = out.sample(checker, start)
+    return Lift(way, PLANNERS["Arm"]) if way else Lift(reason=reason)
+
+
+def roomiest(ways: Iterable[Lift]) -> Lift:
+    """The first way that ends with room; if none does, the first that was found."""
+    first = Lift()
+    for way in ways:
+        if way.has_room:
+            return way
+        if way and not first:
+            first = way
+    return first
+
+
+def _in_plane(
+    clear: _core.CollisionChecker,
+    solver: _core.SphericalWristSolver,
+    path: list[_core.Configuration],
+    options: _core.DepartureOptions,
+) -> Iterator[Lift]:
+    """Out in the grasp plane, from where a straight left contact; from its end too, if off it."""
+    ends = [min(2, len(path))]
+    across = _core.hand_in_world(clear.cell, path[0].q)[:3, 1]
+    moved = _at(clear, path[-1]) - _at(clear, path[0])
+    if len(path) > 2 and abs(across @ moved) > 1e-3:
+        ends.append(len(path))
+    for end in ends:
+        result = _core.plan_departure(clear, solver, path[end - 1], options)
+        if result.found:
+            whole = [*path[:end], *list(result.path)[1:]]
+            yield Lift(whole, PLANNERS[result.planner.name], result.has_room)
+
+
+def _at(checker: _core.CollisionChecker, configuration: _core.Configuration) -> np.ndarray:
+    position: np.ndarray = _core.hand_in_world(checker.cell, configuration.q)[:3, 3]
+    return position
 
 
 def _go_on(
@@ -104,7 +213,7 @@ def _go_on(
     path: list[_core.Configuration],
     back: np.ndarray,
     options: _core.RetreatOptions,
-) -> list[_core.Configuration]:
+) -> Lift:
     """Straight on in other directions, from the end of a lift and from where it left contact."""
     level = [
         np.array([np.cos(angle), np.sin(angle), 0.0])
@@ -114,8 +223,8 @@ def _go_on(
         for direction in [back, *level]:
             on = _core.plan_retreat(clear, clear, solver, path[end - 1], direction, options)
             if on.found:
-                return [*path[:end], *list(on.path)[1:]]
-    return []
+                return Lift([*path[:end], *list(on.path)[1:]], "two straights", on.has_room)
+    return Lift()
 
 
 def _away(model: _core.CollisionModel, cell: _core.Cell, part: int) -> np.ndarray | None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from handey import _core
 from handey.gross_motion import Search, go, go_straight, open_and_go
-from handey.lift import Lift, lift
+from handey.lift import PLANNERS, Lift, WaysOut, draw_back, lift
 from handey.report import StageClock
 from handey.way_out import WayOutOptions, way_out
 
@@ -31,13 +31,6 @@ __all__ = [
     "find_reach",
 ]
 
-# How the planners of an approach are called in reports.
-PLANNERS = {
-    "Straight": "straight",
-    "Quasipotential": "quasipotential",
-    "PlaneSearch": "plane search",
-    "Arm": "RRT-Connect",
-}
 # Choice: the pads are certified up to this far from the faces, each side; the last stretch is the
 # contact itself [m].
 CLOSING_GAP = 3e-4
@@ -49,7 +42,9 @@ class DirectOptions:
 
     Attributes:
         approach: options of the local planner.
-        retreat: options of lifts and withdrawals.
+        retreat: options of straight lifts and withdrawals.
+        departure: the same in the grasp plane, where no straight one leads out.
+        roomier: the same, where a straight one does, but ends with little room.
         gross: options of the gross motions.
         most_places: configurations at the destination that are tried for one grasp.
         arm: budget of motions near obstacles by the whole arm, where the local planners give none;
@@ -58,6 +53,10 @@ class DirectOptions:
 
     approach: _core.ApproachOptions = field(default_factory=_core.ApproachOptions)
     retreat: _core.RetreatOptions = field(default_factory=_core.RetreatOptions)
+    departure: _core.DepartureOptions = field(default_factory=_core.DepartureOptions)
+    roomier: _core.DepartureOptions = field(
+        default_factory=lambda: _core.DepartureOptions(search_levels=0)
+    )
     gross: _core.GrossOptions = field(default_factory=_core.GrossOptions)
     most_places: int = 4
     arm: WayOutOptions | None = None
@@ -178,9 +177,14 @@ def find_reach(
     scene = work.scene
     with work.clock("approach"):
         approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
-        grasp, path, planner = approach.grasp, list(approach.path), _planner_of(approach)
+        grasp, path = approach.grasp, list(approach.path)
+        planner = PLANNERS[approach.planner.name]
         if not approach and options.arm is not None:
-            checker = _core.CollisionChecker(work.model, scene.cell)
+            checker = (
+                _core.join_destination(scene).checker()
+                if options.approach.destination_obstacles_join
+                else _core.CollisionChecker(work.model, scene.cell)
+            )
             inside = _at(q_pick, aim.opening)
             path = way_out(work.solver, checker, inside, options.arm)[::-1]
             grasp, planner = aim, PLANNERS["Arm"]
@@ -222,10 +226,6 @@ def find_reach(
     return Reach(grasp, path, depart.path, planners, X_HP, [first], others)
 
 
-def _planner_of(approach: _core.ApproachResult) -> str:
-    return PLANNERS[approach.planner.name]
-
-
 def _placings(
     work: Workspace,
     pair: _core.RankedPair,
@@ -245,12 +245,13 @@ def _placings(
             reasons.append(("deposit", deposit.reason))
             continue
         work.given["deposit", deposit.planner] += 1
-        withdraw, planner, reason = _withdraw(work, goal_cell, pair, grasp, q_place, options)
+        withdraw = _withdraw(work, goal_cell, grasp, q_place, options)
         if withdraw:
-            work.given["withdraw", planner] += 1
-            yield Placing(deposit.path[::-1], withdraw, (deposit.planner, planner))
+            work.given["withdraw", withdraw.planner] += 1
+            planners = deposit.planner, withdraw.planner
+            yield Placing(deposit.path[::-1], withdraw.path, planners)
         else:
-            reasons.append(("withdraw", reason))
+            reasons.append(("withdraw", withdraw.reason))
 
 
 def _lift(
@@ -260,6 +261,11 @@ def _lift(
     X_HP: np.ndarray,
     options: DirectOptions,
 ) -> Lift:
+    out = _ways_out(work, options)
+    return lift(work.model, work.solver, cell, work.scene.part, start, X_HP, out)
+
+
+def _ways_out(work: Workspace, options: DirectOptions) -> WaysOut:
     arm = options.arm
 
     def sample(
@@ -267,8 +273,7 @@ def _lift(
     ) -> list[_core.Configuration]:
         return [] if arm is None else way_out(work.solver, checker, stop, arm)
 
-    part = work.scene.part
-    return lift(work.model, work.solver, cell, part, start, X_HP, options.retreat, sample)
+    return WaysOut(options.retreat, options.departure, options.roomier, sample)
 
 
 def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
@@ -344,12 +349,11 @@ def _nearest_first(work: Workspace, solutions: list[np.ndarray], q: np.ndarray) 
 def _withdraw(
     work: Workspace,
     goal_cell: _core.Cell,
-    pair: _core.RankedPair,
     grasp: _core.GraspPose,
     q_place: np.ndarray,
     options: DirectOptions,
-) -> tuple[list[_core.Configuration], str, str]:
-    """Open the fingers at the destination and draw the hand back: path, planner, reason."""
+) -> Lift:
+    """Open the fingers at the destination and draw the hand back."""
     scene = work.scene
     with work.clock("withdraw"):
         checker = _core.CollisionChecker(work.model, goal_cell)
@@ -369,31 +373,5 @@ def _withdraw(
                 options.approach.certificate,
             )
         if not opening.is_free:
-            return [], "", f"the opening fingers meet {opening.hit.b}"
-        hand = _core.hand_in_world(goal_cell, q_place)
-        back, reason = -hand[:3, 2], ""
-        for direction in [back, *(_turned(hand, angle) for angle in (0.35, -0.35, 0.8, -0.8))]:
-            result = _core.plan_retreat(
-                checker, checker, work.solver, opened, direction, options.retreat
-            )
-            if result.found:
-                return list(result.path), "straight", ""
-            reason = reason or result.reason
-        # The slide of the approach, planned at the destination and driven backwards.
-        there = _core.GraspScene(
-            model=work.model, cell=goal_cell, part=scene.part, X_WP_goal=scene.X_WP_goal
-        )
-        slide = _core.plan_approach(there, work.solver, pair, grasp, q_place, options.approach)
-        if slide.found and np.array_equal(slide.path[-1].q, q_place):
-            return list(slide.path)[::-1], _planner_of(slide), ""
-        if options.arm is not None:
-            way = way_out(work.solver, checker, opened, options.arm)
-            if way:
-                return way, PLANNERS["Arm"], ""
-    return [], "", reason
-
-
-def _turned(hand: np.ndarray, angle: float) -> np.ndarray:
-    """The direction back along the hand, turned in the grasp plane."""
-    direction: np.ndarray = np.sin(angle) * hand[:3, 0] - np.cos(angle) * hand[:3, 2]
-    return direction
+            return Lift(reason=f"the opening fingers meet {opening.hit.b}")
+        return draw_back(checker, work.solver, opened, _ways_out(work, options))

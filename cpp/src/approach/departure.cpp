@@ -80,7 +80,7 @@ class Departure {
 
   DepartureResult run() {
     if (options_.most_slides > 0) slide();
-    if (!is_settled()) search();
+    if (options_.search_levels > 0 && !is_settled()) search();
     if (!best_.found) {
       best_.planner = result_.planner;
       best_.reason = result_.reason.empty() ? "no planner was asked" : result_.reason;
@@ -133,15 +133,16 @@ class Departure {
     const GripperOutline core = core_with_part(gripper_, checker_);
     const ObstacleLayers within(checker_.cell(), core, X_WG_, {0.0, 0.0}, half_size());
     BoxProver prover(checker_, options_.certificate.clearance);
+    int ends = 0;
     const EndTest may_end = [&](const Eigen::VectorXd& q) {
-      return has_room(prover, reach_.with_opening(q), options_.room);
+      return ++ends <= kMostEnds && has_room(prover, reach_.with_opening(q), options_.room);
     };
     for (int level = 0; level < options_.search_levels && !is_settled(); ++level) {
       const double cell = std::ldexp(options_.cell, -level);
       PlaneSearch plane(obstacles_.draw(cell), outline_, within.draw_inside(cell), core, {},
                         options_.most, options_.search);
       HandSearch search(std::move(plane), reach_, {}, options_.certificate);
-      if (!try_ends(search, {})) continue;
+      if (!best_.found && !try_ends(search, {})) continue;
       if (!is_settled()) try_ends(search, may_end);
     }
   }
@@ -184,6 +185,8 @@ class Departure {
              ""};
   }
 
+  // Choice: ends of ways that are asked whether they have room.
+  static constexpr int kMostEnds = 24;
   // Choice: far above rounding, far below what moves a finger [rad].
   static constexpr double kSameConfiguration = 1e-6;
 

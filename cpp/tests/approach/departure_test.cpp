@@ -117,15 +117,11 @@ TEST(PlanDeparture, CarriesAPartOutOfAPocketThatNoStraightLeadsOutOf) {
   DepartureOptions options;
   for (const int slides : {3, 0}) {
     options.most_slides = slides;
-    const DepartureResult way =
-        plan_departure(part.clear, part.solver, part.lifted(), options);
+    const DepartureResult way = plan_departure(part.clear, part.solver, part.lifted(), options);
     expect_good(part.clear, part.lifted(), way, options);
     EXPECT_TRUE(way.has_room);
-    if (slides == 0) {
-      EXPECT_EQ(way.planner, ApproachPlanner::PlaneSearch);
-    }
-    RecordProperty("planner", static_cast<int>(way.planner));
-    std::printf("slides %d planner %d\n", slides, static_cast<int>(way.planner));
+    EXPECT_EQ(way.planner,
+              slides > 0 ? ApproachPlanner::Quasipotential : ApproachPlanner::PlaneSearch);
   }
 }
 
@@ -139,11 +135,76 @@ TEST(PlanDeparture, CountsThePartToTheHand) {
   EXPECT_TRUE(held.path.empty());
   EXPECT_EQ(held.planner, ApproachPlanner::PlaneSearch);
   EXPECT_FALSE(held.reason.empty());
-  std::printf("%s\n", held.reason.c_str());
+  EXPECT_NE(held.reason.find("held block meets"), std::string::npos) << held.reason;
   // The same hand without the part goes straight up.
   const Cell without = cell.with_part_at(0, at(0.3, -0.4, 0.025));
   CollisionChecker empty(part.model, without);
   expect_good(empty, part.lifted(), plan_departure(empty, part.solver, part.lifted()));
+}
+
+TEST(PlanDeparture, DrawsTheOpenHandOutFromUnderALid) {
+  // Over the palm there is a lid, beside the block there is room: level out, then up.
+  Cell cell = block_on_table({
+      box("lid", {0.3, 0.20, 0.02}, at(0.5, 0.20, 0.40)),
+  });
+  cell.fixtures.push_back(box("stand", {0.06, 0.06, 0.20}, at(0.5, 0.2, 0.10)));
+  cell.parts[0].X_WB = at(0.5, 0.2, 0.225);
+  const SphericalWristSolver solver(*cell.robot);
+  CollisionChecker checker(make_collision_model(cell), cell);
+  // The hand comes level along y: x of the hand is upright, and so is the plane.
+  Pose X_WH = Pose::Identity();
+  X_WH.linear().col(2) = Eigen::Vector3d::UnitY();
+  X_WH.linear().col(1) = Eigen::Vector3d::UnitX();
+  X_WH.linear().col(0) = X_WH.linear().col(1).cross(X_WH.linear().col(2));
+  X_WH.translation() = cell.parts[0].X_WB.translation();
+  for (const InverseSolution& solution : solver.solve(cell.X_WR.inverse() * X_WH).solutions) {
+    const Configuration start{solution.q, 0.056};
+    if (!checker.is_free(start)) continue;
+    EXPECT_FALSE(plan_retreat(checker, checker, solver, start, -kUp).found);  // the stand
+    DepartureOptions options;
+    options.most_slides = 0;
+    const DepartureResult way = plan_departure(checker, solver, start, options);
+    expect_good(checker, start, way, options);
+    EXPECT_EQ(way.planner, ApproachPlanner::PlaneSearch);
+    return;
+  }
+  FAIL() << "no free configuration";
+}
+
+TEST(PlanDeparture, CarriesAPartThatIsNotConvexAndGivesTheSameWayTwice) {
+  // An L of two bars as one mesh: its notch is free, so the pocket's ledge may reach into it.
+  Cell cell = block_in_pocket();
+  const auto outline = [] {
+    TriangleMesh mesh;
+    const double x = 0.02;
+    const std::vector<Eigen::Vector2d> l = {{-0.06, -0.025}, {0.06, -0.025}, {0.06, 0.0},
+                                            {0.03, 0.0},     {0.03, 0.025},  {-0.06, 0.025}};
+    for (const double side : {-x, x}) {
+      for (const Eigen::Vector2d& p : l) mesh.vertices.emplace_back(side, p.x(), p.y());
+    }
+    const int n = static_cast<int>(l.size());
+    for (int i = 0; i < n; ++i) {
+      const int j = (i + 1) % n;
+      mesh.triangles.emplace_back(j, n + j, n + i);
+      mesh.triangles.emplace_back(i, j, n + i);
+    }
+    for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 3),
+                                     Eigen::Vector3i(0, 3, 4), Eigen::Vector3i(0, 4, 5)}) {
+      mesh.triangles.emplace_back(t[2] + n, t[1] + n, t[0] + n);
+      mesh.triangles.emplace_back(t[0], t[1], t[2]);
+    }
+    return mesh;
+  };
+  cell.parts[0].shapes[0].geometry =
+      MeshShape{std::make_shared<const TriangleMesh>(outline()), true};
+  HeldPart part(cell);
+  DepartureOptions options;
+  options.most_slides = 0;
+  const DepartureResult way = plan_departure(part.clear, part.solver, part.lifted(), options);
+  expect_good(part.clear, part.lifted(), way, options);
+  const DepartureResult again = plan_departure(part.clear, part.solver, part.lifted(), options);
+  ASSERT_EQ(way.path.size(), again.path.size());
+  for (std::size_t i = 0; i < way.path.size(); ++i) EXPECT_EQ(way.path[i].q, again.path[i].q);
 }
 
 TEST(PlanDeparture, RefusesWrongInput) {
