@@ -32,6 +32,7 @@ SAME_FACE = np.cos(np.radians(1.0))  # Choice: the tolerance of faces elsewhere
 SAME_REST_FIRST = 8  # Choice: so many placements without turning the part over come first
 KEPT_FREE = 0.01  # Choice: room for the parts whose places are known, around these places [m]
 NO_AREA = 1e-8  # less is rounding [m2]
+CONTACT = 5e-4  # of the format: bodies that touch may be so deep in each other [m]
 
 
 def is_met(goal: Goal, cell: _core.Cell, model: _core.CollisionModel, start: _core.Cell) -> bool:
@@ -90,7 +91,8 @@ def _within_walls(cell: _core.Cell, part: int, goal: PlaceInside, hull: np.ndarr
         if face.enclosed.empty() or not -DEEPEST_CONTACT <= gap <= CONTACT_GAP:
             continue
         foot = _seen_in(face, np.c_[hull, np.full(len(hull), face.X_WS[2, 3])])
-        if _spills(foot, face.enclosed) or _spills(_seen_in(face, points), face.outline):
+        within = _core.offset(face.enclosed, CONTACT)
+        if _spills(foot, within) or _spills(_seen_in(face, points), face.outline):
             continue
         return True
     return False

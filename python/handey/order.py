@@ -23,8 +23,8 @@ import numpy as np
 from handey import _core
 from handey.cell_file import CellFile
 from handey.goal_places import is_met, places_for, rest_of
+from handey.in_the_way import Hindrance, carries, hindrance, runs_into, topmost
 from handey.pick_and_place import Carry, Workspace
-from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan_options import PlanOptions
 from handey.report import GoalReport, Report, StageClock
 from handey.resting import PlacementOptions, Sought, placements
@@ -115,18 +115,6 @@ def _served(moves: tuple[Move, ...], goals: tuple[Goal, ...]) -> list[Move]:
         serves_own = move.target.part == goals[move.goal].part
         found.append(move if serves_own or not found else replace(move, goal=found[-1].goal))
     return found[::-1]
-
-
-def _overlapping_parts(model: _core.CollisionModel, cell: _core.Cell, part: int) -> list[int]:
-    """Parts that overlap this one, deeper than contact."""
-    found = []
-    for overlap in _core.find_overlaps(model, cell):
-        refs = [overlap.a, overlap.b]
-        if all(ref.kind == _core.BodyRef.Kind.Part for ref in refs):
-            pair = [ref.index for ref in refs]
-            if part in pair:
-                found.append(pair[1 - pair.index(part)])
-    return found
 
 
 @dataclass
@@ -244,18 +232,19 @@ class _Search:
         if key in self.dead:
             return None
         ready = self._next(state)
-        blocked = {index: self._blocked(state, index) for index in ready}
-        for index in sorted(ready, key=lambda i: blocked[i] is not None):
-            # What stands in the way of a single goal is told by its planner.
-            if blocked[index] is not None and (self.any_order or blocked[index]):
-                self._tell_blocked(state, index)
+        with self.hands.clock("order"):
+            seen = {i: hindrance(self.goals[i], state.cell, self.hands.model) for i in ready}
+        for index in ready:
+            obstacle = seen[index]
+            if obstacle is not None:
+                self._fail(index, self._words(obstacle))
                 continue
             for after in self._reached(state, index):
                 found = self._go_on(after)
                 if found is not None:
                     return found
         for index in ready:
-            for after in self._cleared(state, index, blocked[index]):
+            for after in self._cleared(state, index, seen[index]):
                 found = self._go_on(after)
                 if found is not None:
                     return found
@@ -286,50 +275,9 @@ class _Search:
     def _part(self, index: int) -> str:
         return self.goals[index].part
 
-    def _blocked(self, state: _State, index: int) -> list[int] | None:
-        """Parts that must go first, by cheap tests; None if nothing is seen to be in the way.
-
-        An empty list: the part would not stand at its goal as the cell is now.
-        """
-        goal, model = self.goals[index], self.hands.model
-        part = state.cell.part_index(goal.part)
-        blockers = carried_by(model, state.cell, part)
-        if not isinstance(goal, PlaceAt):
-            return blockers or None
-        there = state.cell.with_part_at(part, goal.X_WP)
-        near = _core.touching_bodies(model, there, part, TOUCHING)
-        # That no goal is inside a fixture was seen when the cell was read. How deep bodies overlap
-        # takes long to tell: it is asked only where another part is near.
-        if any(ref.kind == _core.BodyRef.Kind.Part for ref in near):
-            blockers += _overlapping_parts(model, there, part)
-        if blockers:
-            return list(dict.fromkeys(blockers))
-        return None if examine_standing(state.cell, part, goal.X_WP, near).stable else []
-
-    def _tell_blocked(self, state: _State, index: int) -> None:
-        """What the cheap tests saw, in the goal's report."""
-        goal = self.goals[index]
-        part = state.cell.part_index(goal.part)
-        fallen = carried_by(self.hands.model, state.cell, part)
-        there = state.cell
-        reasons = []
-        if fallen:
-            names = ", ".join(state.cell.parts[i].name for i in fallen)
-            verb = "it stands" if len(fallen) == 1 else "they stand"
-            clear = "" if self.any_order else "; an earlier goal may clear it"
-            moved = f"{verb} on {goal.part}, which is to be moved{clear}"
-            reasons.append(f"{names} would fall: {moved}")
-        if isinstance(goal, PlaceAt):
-            there = there.with_part_at(part, goal.X_WP)
-            for overlap in _core.find_overlaps(self.hands.model, there):
-                if goal.part in (overlap.name_a, overlap.name_b):
-                    other = overlap.name_b if overlap.name_a == goal.part else overlap.name_a
-                    reasons.append(f"{other} is where {goal.part} is to go")
-            near = _core.touching_bodies(self.hands.model, there, part, TOUCHING)
-            standing = examine_standing(state.cell, part, goal.X_WP, near)
-            if not standing.stable:
-                reasons.append(f"{goal.part} would not stand at its goal: {standing.reason}")
-        self._fail(index, reasons)
+    def _words(self, obstacle: Hindrance) -> list[str]:
+        earlier = "" if self.any_order else "; an earlier goal may clear it"
+        return [f"{reason}{earlier}" for reason in obstacle.reasons]
 
     def _fail(self, index: int, reasons: list[str]) -> None:
         report = self.report.goals[index]
@@ -435,34 +383,31 @@ class _Search:
 
     # Parts in the way.
 
-    def _cleared(self, state: _State, index: int, blockers: list[int] | None) -> Iterator[_State]:
+    def _cleared(self, state: _State, index: int, obstacle: Hindrance | None) -> Iterator[_State]:
         """States in which something that is in the goal's way was moved aside."""
         movable = self._movable(state)
-        if not movable or blockers == []:
+        if not movable or (obstacle is not None and not obstacle.parts):
             return
-        if blockers is None:
+        if obstacle is not None:
+            blockers = list(obstacle.parts)
+        else:
             blockers = self._in_the_way(state, index, movable)
-        goal_part = state.cell.part_index(self._part(index))
-        tops = list(dict.fromkeys(self._topmost(state, blocker) for blocker in blockers))
-        if any(top not in movable for top in tops if top != goal_part):
+        cell, model = state.cell, self.hands.model
+        tops = list(dict.fromkeys(topmost(cell, model, blocker) for blocker in blockers))
+        tops = [top for top in tops if cell.parts[top].name != self._part(index)]
+        if any(top not in movable for top in tops):
             return
         for top in tops:
-            if top != goal_part:
-                yield from self._moved_aside(state, index, top)
-
-    def _topmost(self, state: _State, part: int) -> int:
-        """The part itself, or what stands on what stands on it."""
-        for _ in state.cell.parts:
-            above = carried_by(self.hands.model, state.cell, part)
-            if not above:
-                break
-            part = above[0]
-        return part
+            yield from self._moved_aside(state, index, top)
 
     def _in_the_way(self, state: _State, index: int, movable: list[int]) -> list[int]:
         """Parts that a motion meets which is planned as if they were not there."""
-        part = state.cell.part_index(self._part(index))
-        absent = [i for i in movable if i != part and not self._carries(state, index, i)]
+        goal = self.goals[index]
+        absent = [
+            i
+            for i in movable
+            if state.cell.parts[i].name != goal.part and not carries(state.cell, goal, i)
+        ]
         if not absent:
             return []
         cell = state.cell
@@ -474,48 +419,16 @@ class _Search:
                 return []
             self.hands.respect()
             carry = self._plan(self._work(state, cell, target, None), self._options(), scratch)
-            if carry is not None:
-                with self.hands.clock("order"):
-                    return [i for i in absent if self._meets(state, cell, target, carry, i)]
+            if carry is None:
+                continue
+            with self.hands.clock("order"):
+                found = []
+                for i in absent:
+                    real = cell.with_part_at(i, state.cell.parts[i].X_WB)
+                    if runs_into(carry, target, real, self.hands.model, i):
+                        found.append(i)
+            return found
         return []
-
-    def _carries(self, state: _State, index: int, other: int) -> bool:
-        """Does the goal's part stand on another, where it is or at its goal?"""
-        goal, cell = self.goals[index], state.cell
-        part = cell.part_index(goal.part)
-        poses = [cell.parts[part].X_WB]
-        poses += [goal.X_WP] if isinstance(goal, PlaceAt) else []
-        name = cell.parts[other].name
-        return any(name in examine_standing(cell, part, X_WP).on for X_WP in poses)
-
-    def _meets(
-        self, state: _State, cell: _core.Cell, target: PlaceAt, carry: Carry, other: int
-    ) -> bool:
-        """Does a carry, planned in `cell`, run into a part where that really is?"""
-        model, part = self.hands.model, cell.part_index(target.part)
-        real = cell.with_part_at(other, state.cell.parts[other].X_WB)
-        after = real.with_part_at(part, target.X_WP)
-        for overlap in _core.find_overlaps(model, after):
-            if {cell.parts[part].name, cell.parts[other].name} == {overlap.name_a, overlap.name_b}:
-                return True
-        kinds = (_core.BodyRef.Kind.Fixture, _core.BodyRef.Kind.Part)
-        bodies = [
-            _core.BodyRef(kind, i)
-            for kind, count in zip(kinds, (len(cell.fixtures), len(cell.parts)), strict=True)
-            for i in range(count)
-            if (kind, i) != (kinds[1], other)
-        ]
-        allowance = _core.Allowance(closed_on=part, held_touches=bodies)
-        name, released = cell.parts[other].name, False
-        for motion in carry.motions:
-            X_HP = carry.X_HP
-            there = real.with_held(part, X_HP) if motion.held else (after if released else real)
-            released = released or motion.held
-            checker = _core.CollisionChecker(model, there, allowance)
-            found = _core.certify_path(checker, motion.path)
-            if found.hit is not None and name in (found.hit.a, found.hit.b):
-                return True
-        return False
 
     def _moved_aside(self, state: _State, index: int, part: int) -> Iterator[_State]:
         """States in which a part stands somewhere on a support, out of the way."""

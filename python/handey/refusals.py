@@ -1,8 +1,10 @@
 """What in a cell cannot be: bodies in each other, a robot in a body, goals where no part stays.
 
-Goals are taken in their order, each with the parts where the goals before it have put them; where
-handey may choose the order, all parts stand at their last goals. A goal that leaves the pose open
-(`on`, `inside`) puts its part nowhere known; what it might touch from then on is not judged.
+Goals are taken in their order, each with the parts where the goals before it have put them. Where
+handey may choose the order, a part's last goal is judged with all parts at their last goals; at an
+earlier one the others may be anywhere. A goal that leaves the pose open (`on`, `inside`) puts its
+part nowhere known, and a part that may move and has no goal may be moved out of the way: that one
+overlaps them is not judged.
 """
 
 from __future__ import annotations
@@ -57,7 +59,9 @@ def _start_faults(cell: _core.Cell, model: _core.CollisionModel, file: str) -> l
 
 def _goal_faults(entry: CellEntry, cell: _core.Cell, model: _core.CollisionModel) -> list[Fault]:
     faults: list[Fault] = []
-    goals = entry.task.goals
+    goals, file = entry.task.goals, entry.document.file
+    with_goal = {cell.part_index(goal.part) for goal in goals}
+    may_give_way = {i for i, part in enumerate(cell.parts) if part.may_move} - with_goal
     unknown: set[int] = set()
     if entry.task.any_order:
         cell, unknown = _all_reached(cell, goals)
@@ -66,24 +70,28 @@ def _goal_faults(entry: CellEntry, cell: _core.Cell, model: _core.CollisionModel
         if not isinstance(goal, PlaceAt):
             unknown.add(part)
             continue
+        elsewhere = set(unknown)
+        there = cell.with_part_at(part, goal.X_WP)
         if not entry.task.any_order:
             unknown.discard(part)
-        cell = cell.with_part_at(part, goal.X_WP)
+            cell = there
+        elif any(later.part == goal.part for later in goals[index + 1 :]):
+            elsewhere = with_goal
+        elsewhere -= {part}
         place = f"task[{index}].at"
-        found = _overlap_messages(cell, model, part, unknown)
-        faults += [Fault("E_GOAL_IN_COLLISION", place, text, entry.document.file) for text in found]
-        standing = examine_standing(cell, part, goal.X_WP)
-        if not standing.stable and not found and not unknown:
+        found = _overlap_messages(there, model, part, elsewhere | may_give_way)
+        faults += [Fault("E_GOAL_IN_COLLISION", place, text, file) for text in found]
+        standing = examine_standing(there, part, goal.X_WP)
+        if not standing.stable and not found and not elsewhere:
             message = f"'{goal.part}' does not stand stably at its goal: {standing.reason}"
-            faults.append(Fault("E_GOAL_UNSTABLE", place, message, entry.document.file))
+            faults.append(Fault("E_GOAL_UNSTABLE", place, message, file))
     return faults
 
 
 def _all_reached(cell: _core.Cell, goals: tuple[Goal, ...]) -> tuple[_core.Cell, set[int]]:
     """The cell with each part at its last goal, and the parts whose place that leaves open."""
     unknown = set()
-    for goal in goals:
-        part = cell.part_index(goal.part)
+    for part, goal in {cell.part_index(goal.part): goal for goal in goals}.items():
         if isinstance(goal, PlaceAt):
             cell = cell.with_part_at(part, goal.X_WP)
         else:

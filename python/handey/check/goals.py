@@ -9,11 +9,11 @@ import numpy as np
 from handey.check.carries import NEAR, NEAR_ANGLE, Carry, World, pose_error
 from handey.check.cell import Cell, Goal
 from handey.check.plan_data import PlanData
-from handey.check.planar import unit_normals
 from handey.check.report import CheckReport
 from handey.check.shapes import transformed
 from handey.check.standing import Ground, standing_on
 from handey.check.values import Array
+from handey.check.walls import walls_fault
 
 __all__ = ["check_goals", "goal_fault", "grounds_for"]
 
@@ -129,29 +129,7 @@ def goal_fault(
         if angle > SAME_FACE:
             return f"stands on another face: turned over by {angle:.4f} rad"
     if goal.inside is not None:
-        return _outside(cell, goal.inside, triangles)
-    return None
-
-
-def _outside(cell: Cell, name: str, triangles: Array) -> str | None:
-    """Why a part is not within the walls of a fixture, or None."""
-    body = next(body for body in cell.fixtures if body.name == name)
-    walls = transformed(body.pose, body.triangles().reshape(-1, 3))
-    low, high = walls.min(axis=0), walls.max(axis=0)
-    part = triangles.reshape(-1, 3)
-    if (part[:, :2].min(axis=0) < low[:2] - NEAR).any() or (
-        part[:, :2].max(axis=0) > high[:2] + NEAR
-    ).any():
-        return f"reaches out of {name}"
-    if part[:, 2].min() >= high[2] - NEAR:
-        return f"lies on top of {name}, not inside"
-    faces = body.triangles()
-    level = unit_normals(faces) @ body.pose[2, :3]
-    rim = (
-        transformed(body.pose, faces[level > 0.99].reshape(-1, 3))[:, 2]
-        if (level > 0.99).any()
-        else walls[:, 2]
-    )
-    if part[:, 2].min() > rim.max() - NEAR:
-        return f"lies on the rim of {name}, not inside"
+        body = next(body for body in cell.fixtures if body.name == goal.inside)
+        walls = transformed(body.pose, body.triangles().reshape(-1, 3)).reshape(-1, 3, 3)
+        return walls_fault(goal.inside, walls, triangles, standing.hull)
     return None

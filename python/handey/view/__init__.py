@@ -176,7 +176,10 @@ def _scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
         "fixtures": [{**body(item), "support": item.support} for item in cell.fixtures],
         "parts": [body(item) for item in cell.parts],
         "goals": [
-            {"part": g.part, "at": None if g.at is None else _matrix(g.at), "on": g.on or g.inside}
+            {
+                "part": g.part, "at": None if g.at is None else _matrix(g.at),
+                "on": g.on, "inside": g.inside,
+            }
             for g in cell.task
         ],
         "plan": _motion(cell, plan),

@@ -442,8 +442,9 @@
     if ($("what").textContent !== doing) $("what").textContent = doing;
     $("swatch").style.background = step ? ACTIONS[step.action] : "";
     const goal = scene.goals[step ? step.goal : 0];
+    const aside = step && step.held && goal && step.held !== goal.part ? `${step.held} aside, then ` : "";
     $("task").textContent = goal
-      ? `${scene.goals.length > 1 ? `Goal ${(step ? step.goal : 0) + 1} of ${scene.goals.length}: ` : ""}place ${goal.part}${goal.on ? " on " + goal.on : ""}`
+      ? `${scene.goals.length > 1 ? `Goal ${(step ? step.goal : 0) + 1} of ${scene.goals.length}: ` : ""}${aside}place ${goal.part}${goal.on ? " on " + goal.on : goal.inside ? " inside " + goal.inside : ""}`
       : "";
     blocks.forEach((block, i) => block.classList.toggle("here", plan.steps[i] === step));
     $("scrub").setAttribute("aria-valuetext", `${now.toFixed(2)} seconds, ${action}`);
