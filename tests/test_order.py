@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 import handey
-from handey import _core
+from handey import _core, planner
 from handey.plan_options import PlanOptions
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -114,22 +114,62 @@ def test_a_part_where_another_is_to_go_goes_first(tmp_path) -> None:
     assert carried == ["c", "b", "a"]
 
 
-def test_a_part_that_leaves_the_jaws_no_room_is_put_aside(tmp_path) -> None:
-    # Blocks too wide for the jaws on either side of the part, and low walls at its ends.
+def between(may_move: bool) -> tuple[dict, dict]:
+    """A part between two walls and two blocks, all too near for a finger; parts and fixtures."""
     parts = {
-        "part": box([0.05, 0.06, 0.04], [0.48, 0.15, 0.02]),
-        "left": box([0.05, 0.07, 0.05], [0.48, 0.2155, 0.025], may_move=True),
-        "right": box([0.05, 0.07, 0.05], [0.48, 0.0845, 0.025]),
+        "left": box([0.04, 0.04, 0.06], [0.5, 0.045, 0.03], may_move=may_move),
+        "right": box([0.04, 0.04, 0.06], [0.5, -0.045, 0.03], may_move=may_move),
+        "part": box([0.04, 0.04, 0.04], [0.5, 0.0, 0.02]),
     }
-    fixtures = {
-        "front": box([0.02, 0.3, 0.05], [0.444, 0.15, 0.025]),
-        "back": box([0.02, 0.3, 0.05], [0.516, 0.15, 0.025]),
+    walls = {
+        f"wall{i}": box([0.01, 0.036, 0.05], [0.5 + s * 0.028, 0, 0.025])
+        for i, s in enumerate((-1, 1))
     }
-    path = write(tmp_path, parts, [goal("part", [0.6, -0.2, 0.02])], fixtures)
-    result = handey.plan(handey.load_cell(path))
-    # One side is free then, the other is not: no motion either way, and the reason is told.
+    return parts, walls
+
+
+def test_parts_that_leave_the_fingers_no_room_are_put_aside(tmp_path) -> None:
+    task = [goal("part", [0.6, -0.25, 0.02])]
+    parts, walls = between(may_move=True)
+    result, carried = planned(write(tmp_path, parts, task, walls))
+    assert sorted(carried) == ["left", "part", "right"] and carried[-1] == "part"
+    parts, walls = between(may_move=False)
+    result = handey.plan(handey.load_cell(write(tmp_path, parts, task, walls)))
+    assert result.plan is None and result.report.goals[0].status == "failed"
+
+
+def test_an_order_that_leads_nowhere_is_given_up_for_another(tmp_path) -> None:
+    # The goals say the two blocks first; then no finger gets to where the part is to go.
+    parts, walls = between(may_move=False)
+    task = [goal(name, part["pose"]["xyz"]) for name, part in parts.items()]
+    for i, part in enumerate(parts.values()):
+        part["pose"]["xyz"] = [0.45, 0.2 + 0.12 * i, part["pose"]["xyz"][2]]
+    _, carried = planned(write(tmp_path, parts, task, walls, order="any"))
+    assert carried == ["part", "left", "right"]
+    result = handey.plan(handey.load_cell(write(tmp_path, parts, task, walls)))
     assert result.plan is None
-    assert result.report.goals[0].status == "failed" and result.report.reasons
+    assert [goal.status for goal in result.report.goals] == ["planned", "planned", "failed"]
+
+
+def test_a_goal_that_no_order_reaches_ends_the_search_soon(tmp_path) -> None:
+    parts = {f"p{i}": box([0.05, 0.06, 0.04], [0.45, -0.2 + 0.1 * i, 0.02]) for i in range(5)}
+    task = [goal(name, [0.6, -0.2 + 0.1 * i, 0.02]) for i, name in enumerate(parts)]
+    task[2] = goal("p2", [1.25, 0.6, 0.02])
+    calls = []
+    plan_goal = planner._plan_goal
+
+    def counted(*arguments):
+        calls.append(arguments)
+        return plan_goal(*arguments)
+
+    planner._plan_goal = counted
+    try:
+        result = handey.plan(handey.load_cell(write(tmp_path, parts, task, order="any")))
+    finally:
+        planner._plan_goal = plan_goal
+    assert result.plan is None
+    assert any("goal 2 (p2" in reason for reason in result.report.reasons)
+    assert len(calls) <= 20
 
 
 def test_a_lid_that_may_move_is_taken_off_a_box(tmp_path) -> None:

@@ -22,7 +22,8 @@ from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput
 from handey.grasps import Grasps
 from handey.jaws import is_wider_than_jaws
-from handey.order import Hands, plan_order
+from handey.moves import Hands
+from handey.order import plan_order
 from handey.pick_and_place import (
     Carry,
     Workspace,

@@ -141,6 +141,16 @@ class GoalReport:
     exhausted: bool = False
     aside: list[str] = field(default_factory=list)
 
+    def fail(self, reasons: list[str]) -> None:
+        """It failed before any grasp was looked at."""
+        self.funnel, self.attempts, self.status = {}, [], "failed"
+        self.reasons = reasons
+
+    def note(self, reason: str) -> None:
+        """Add a reason, once."""
+        if reason not in self.reasons:
+            self.reasons.append(reason)
+
     def add(self, stage: str, count: int) -> None:
         """Add to a count of the funnel."""
         self.funnel[stage] = self.funnel.get(stage, 0) + count
