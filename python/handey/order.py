@@ -167,8 +167,7 @@ class _Search:
             return None
         ready = self._next(state)
         meets: dict[int, list[int] | None] = {}
-        with self.hands.clock("order"):
-            seen = {i: hindrance(self.goals[i], state.cell, self.hands.model) for i in ready}
+        seen = {index: self._hindrance(state, index) for index in ready}
         for index in ready:
             obstacle, ways = seen[index], 0
             if obstacle is not None:
@@ -191,6 +190,13 @@ class _Search:
                     return found
         self._leave(state, key, ready)
         return None
+
+    def _hindrance(self, state: State, index: int) -> Hindrance | None:
+        """What is seen to be in the way; of a goal without alternatives its planner tells that."""
+        if not self._has_choice():
+            return None
+        with self.hands.clock("order"):
+            return hindrance(self.goals[index], state.cell, self.hands.model)
 
     def _leave(self, state: State, key: tuple[object, ...], failed: list[int]) -> None:
         """Nothing leads on from a state."""

@@ -1,6 +1,5 @@
 // Samples (x, y, turn) about the centre of mass; cheap tests in the plane of the face first. Where
-// few samples are good, the least bad ones are shifted and turned until what of the part's shadow
-// lies where it must not has no area, as far as a pattern search leads.
+// a part is to be in a region or within walls and few samples are good, the least bad are mended.
 #include "handey/collision/standing_places.hpp"
 
 #include <algorithm>
@@ -12,12 +11,15 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
-#include "handey/geometry/section.hpp"
+#include "place_mending.hpp"
 
 namespace handey {
 namespace {
 
 using collision::BodyGeometry;
+using collision::margin_of;
+using collision::moved;
+using collision::PlaceSample;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -25,10 +27,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 0.02;  // of a lift: how much nearer than it a body may be
 constexpr double kNothing = 1e-9;   // smaller areas are rounding [m2]
 constexpr int kFew = 8;  // Choice: with fewer than one good sample in so many, bad ones are mended
-constexpr int kMended = 8;        // Choice: at most so many in one run
-constexpr int kSteps = 60;        // of the pattern search, at most
-constexpr double kFinest = 1e-4;  // its least step [m]
-constexpr int kMostShapes = 200;  // Choice: measured obstacles, which have more, mend nothing
+constexpr int kMended = 6;  // Choice: at most so many in one run
 // Powers of 1 / g, g the real root of x^4 = x + 1: Roberts' low-discrepancy sequence.
 constexpr double kPowers[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
 
@@ -97,26 +96,6 @@ double longest_edge(const std::vector<Polygon>& loops) {
   return std::atan2(longest.y(), longest.x());
 }
 
-Polygon moved(const Polygon& polygon, const Eigen::Rotation2Dd& turn, const Vector2d& to) {
-  Polygon result;
-  result.reserve(polygon.size());
-  for (const Vector2d& point : polygon) result.push_back(turn * point + to);
-  return result;
-}
-
-/// Least distance of a point from the edges of a counter-clockwise convex polygon; negative
-/// outside [m].
-double margin_of(const Polygon& hull, const Vector2d& point) {
-  double least = std::numeric_limits<double>::infinity();
-  if (hull.size() < 3) return -least;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d to = hull[i] - point;
-    const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
-    least = std::min(least, along.y() * to.x() - along.x() * to.y());
-  }
-  return least;
-}
-
 class Finder {
  public:
   Finder(const std::shared_ptr<const CollisionModel>& model, const Cell& cell, int part,
@@ -155,7 +134,9 @@ class Finder {
     }
     if (options.region) {
       Eigen::AlignedBox2d box;
-      for (int corner = 0; corner < 4; ++corner) box.extend(region_corner(corner));
+      for (const Vector2d& corner : collision::region_in_face(*options.region, face)) {
+        box.extend(corner);
+      }
       domain_ = domain_.intersection(box);
     }
   }
@@ -163,7 +144,8 @@ class Finder {
   StandingPlaces run() {
     if (domain_.isEmpty() || rest_.footprint.size() < 3) return found_;
     for (int i = 0; i < options_.count; ++i) look_at(options_.first + i);
-    if (static_cast<int>(found_.places.size()) * kFew < options_.count) mend();
+    const bool tight = options_.inside || options_.region;
+    if (tight && static_cast<int>(found_.places.size()) * kFew < options_.count) mend();
     int most = 0;
     for (const auto& [name, count] : met_) {
       if (count <= most) continue;
@@ -189,31 +171,25 @@ class Finder {
     const bool square = (index / 2) % 2 == 0;
     const double turn = square ? aligned_ + 0.5 * kPi * std::floor(4.0 * u.z()) : 2.0 * kPi * u.z();
     ++found_.tried;
-    int* why = test({at, turn});
+    const PlaceSample sample{at, turn};
+    int* why = test(sample);
     if (why == nullptr) return;
     ++*why;
-    fallen_.push_back({at, turn});
+    fallen_.emplace_back(sample, why);
   }
 
-  struct Sample {
-    Vector2d at;
-    double turn;
-  };
-
   /// Keeps a sample that is good; else which of the counts it is of.
-  int* test(const Sample& sample) {
-    const Vector2d& at = sample.at;
-    const Eigen::Rotation2Dd rotation(sample.turn);
-    const Polygon hull = stood_on(rotation, at);
-    const double margin = std::min(margin_of(hull, at), std::max(rest_.margin, 1e-9));
+  int* test(const PlaceSample& sample) {
+    const Polygon hull = stood_on(sample);
+    const double margin = std::min(margin_of(hull, sample.at), std::max(rest_.margin, 1e-9));
     if (margin < std::min(options_.least_margin, 0.5 * rest_.margin)) return &found_.off_the_face;
     if (options_.region && !in_region(hull)) return &found_.outside_the_region;
-    if (options_.inside && !in_walls(hull, moved(rest_.shadow, rotation, at))) {
+    if (options_.inside && !in_walls(hull, moved(rest_.shadow, sample))) {
       return &found_.outside_the_walls;
     }
     Pose X_SS = Pose::Identity();
-    X_SS.linear().topLeftCorner<2, 2>() = rotation.toRotationMatrix();
-    X_SS.translation().head<2>() = at;
+    X_SS.linear().topLeftCorner<2, 2>() = Eigen::Rotation2Dd(sample.turn).toRotationMatrix();
+    X_SS.translation().head<2>() = sample.at;
     const Pose X_WP = face_.X_WS * X_SS * rest_.X_SP;
     if (const Standing* met = meets(X_WP, options_.clearance)) {
       ++met_[met->label];
@@ -228,106 +204,34 @@ class Finder {
     return nullptr;
   }
 
-  /// Shifts and turns the least bad samples until they are good, or no step makes them less bad.
+  /// Mends the least bad samples.
   void mend() {
-    look_round();
+    const collision::PlaceMender mender(cell_, part_, rest_, face_, options_);
+    if (!mender.can_fit()) return;
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < fallen_.size(); ++i) order.emplace_back(badness(fallen_[i]), i);
-    std::stable_sort(order.begin(), order.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < fallen_.size(); ++i) {
+      order.emplace_back(mender.badness(fallen_[i].first), i);
+    }
+    std::sort(order.begin(), order.end());
     if (order.size() > kMended) order.resize(kMended);
     for (const auto& [bad, index] : order) {
-      const Sample sample = mended(fallen_[index], bad);
-      int* was = test(fallen_[index]);  // which count it is of
-      if (was != nullptr && test(sample) == nullptr) --*was;
+      if (test(mender.mended(fallen_[index].first)) == nullptr) --*fallen_[index].second;
     }
-  }
-
-  Sample mended(Sample sample, double bad) const {
-    double step = 0.25 * std::sqrt(area(Region{{rest_.shadow}}));
-    const double radius = std::max(rest_.shadow[0].norm(), kFinest);
-    for (int i = 0; i < kSteps && bad > kNothing && step > kFinest; ++i) {
-      Sample best = sample;
-      double least = bad;
-      for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0),
-                                  Vector3d(0, -1, 0), Vector3d(0, 0, 1), Vector3d(0, 0, -1)}) {
-        const Sample moved_on{sample.at + step * way.head<2>(),
-                              sample.turn + step / radius * way.z()};
-        const double value = badness(moved_on);
-        if (value >= least) continue;
-        least = value;
-        best = moved_on;
-      }
-      if (least < bad) {
-        sample = best;
-        bad = least;
-      } else {
-        step *= 0.5;
-      }
-    }
-    return sample;
-  }
-
-  /// Area of what lies where it must not [m2].
-  double badness(const Sample& sample) const {
-    const Eigen::Rotation2Dd rotation(sample.turn);
-    const Region shadow{{moved(wide_shadow_, rotation, sample.at)}};
-    const Region foot{{moved(rest_.footprint, rotation, sample.at)}};
-    double sum = area(intersect(shadow, around_));
-    if (options_.region) sum += area(subtract(foot, allowed_));
-    if (options_.inside) sum += area(subtract(foot, face_.enclosed));
-    return sum + 0.1 * std::max(0.0, -margin_of(domain_corners_, sample.at));
-  }
-
-  /// What stands in the room that the part takes up over the face, seen from above.
-  void look_round() {
-    std::vector<Region> shadows;
-    const Pose X_SW = face_.X_WS.inverse();
-    const auto add = [&](const Body& body) {
-      for (const Shape& shape : body.shapes) {
-        shadows.push_back(slab_projection(shape, X_SW * body.X_WB, options_.clearance, rest_.top));
-      }
-    };
-    for (const Body& fixture : cell_.fixtures) {
-      if (static_cast<int>(fixture.shapes.size()) <= kMostShapes) add(fixture);
-    }
-    for (std::size_t i = 0; i < cell_.parts.size(); ++i) {
-      const int index = static_cast<int>(i);
-      if (index != part_ && !(cell_.held && cell_.held->part == index)) add(cell_.parts[i]);
-    }
-    around_ = unite(shadows);
-    const Region grown = offset(Region{{rest_.shadow}}, (1.0 + kRounding) * options_.clearance);
-    wide_shadow_ = grown.empty() ? rest_.shadow : grown.loops.front();
-    const Vector2d &low = domain_.min(), &high = domain_.max();
-    domain_corners_ = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-    if (!options_.region) return;
-    Polygon corners;
-    for (int corner = 0; corner < 4; ++corner) corners.push_back(region_corner(corner));
-    allowed_ = Region{{convex_hull(corners)}};
-  }
-
-  /// A corner of the region asked for, in S.
-  Vector2d region_corner(int corner) const {
-    const Vector2d at =
-        options_.region->corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner));
-    return (face_.X_WS.inverse() * Vector3d(at.x(), at.y(), face_.X_WS.translation().z()))
-        .head<2>();
   }
 
   /// Hull of where part and face are in contact, in S.
-  Polygon stood_on(const Eigen::Rotation2Dd& turn, const Vector2d& at) const {
-    if (!contains(face_.region, at) || boundary_distance(face_.region, at) < contact_radius_) {
-      Region contact;
-      for (const Polygon& loop : rest_.contact.loops) {
-        contact.loops.push_back(moved(loop, turn, at));
-      }
-      std::vector<Vector2d> corners;
-      for (const Polygon& loop : intersect(contact, face_.region).loops) {
-        corners.insert(corners.end(), loop.begin(), loop.end());
-      }
-      return corners.size() < 3 ? Polygon() : convex_hull(corners);
+  Polygon stood_on(const PlaceSample& sample) const {
+    if (contains(face_.region, sample.at) &&
+        boundary_distance(face_.region, sample.at) >= contact_radius_) {
+      return moved(rest_.footprint, sample);
     }
-    return moved(rest_.footprint, turn, at);
+    Region contact;
+    for (const Polygon& loop : rest_.contact.loops) contact.loops.push_back(moved(loop, sample));
+    std::vector<Vector2d> corners;
+    for (const Polygon& loop : intersect(contact, face_.region).loops) {
+      corners.insert(corners.end(), loop.begin(), loop.end());
+    }
+    return corners.size() < 3 ? Polygon() : convex_hull(corners);
   }
 
   bool in_region(const Polygon& hull) const {
@@ -377,10 +281,7 @@ class Finder {
   double contact_radius_ = 0.0;
   double aligned_ = 0.0;  // turn that makes the part square to the face [rad]
   Eigen::AlignedBox2d domain_;
-  std::vector<Sample> fallen_;
-  // Of mending:
-  Region around_, allowed_;
-  Polygon wide_shadow_, domain_corners_;
+  std::vector<std::pair<PlaceSample, int*>> fallen_;  // and which of the counts they are in
   std::map<std::string, int> met_;
   StandingPlaces found_;
 };
