@@ -158,6 +158,39 @@ def test_a_plan_puts_the_part_where_its_open_goal_allows(tmp_path) -> None:
         assert handey.check(path, out).ok
 
 
+def test_round_parts_keep_the_side_on_which_they_lie(tmp_path) -> None:
+    lying = {
+        "cylinder": {"radius": 0.02, "length": 0.1},
+        "pose": {"xyz": [0.5, 0.2, 0.02], "rpy": [1.5707963267948966, 0.3, 0]},
+    }
+    ball = {"sphere": {"radius": 0.02}, "pose": {"xyz": [0.5, 0.2, 0.02], "rpy": [0.5, 0.3, 0]}}
+    fixtures = {"tray": tray(0.15, 0.15, 0.03, AT)}
+    for part in (lying, ball):
+        path = write(tmp_path, {"inside": "tray"}, fixtures, part)
+        judges = Judges(path)
+        up = judges.cell.parts[0].X_WB[2, :3]
+        for X_WP in judges.places(8):
+            assert X_WP[2, :3] @ up > 0.9999
+            assert judges.planner(X_WP) and judges.check(X_WP)
+    result = handey.plan(handey.load_cell(write(tmp_path, {"inside": "tray"}, fixtures, lying)))
+    assert result.plan is not None, "\n".join(result.report.reasons)
+
+
+@pytest.mark.parametrize(
+    ("goal", "fixtures", "words"),
+    [
+        ({"inside": "post"}, {"post": {"box": [0.1, 0.1, 0.1], "pose": AT}}, "no walls of post"),
+        ({"on": "table", "region": [[5, 5], [6, 6]]}, {}, "outside the region"),
+        ({"on": "ball"}, {"ball": {"sphere": {"radius": 0.1}, "pose": AT}}, "no upward horizontal"),
+    ],
+)
+def test_the_reason_tells_what_a_fixture_lacks(tmp_path, goal, fixtures, words) -> None:
+    judges = Judges(write(tmp_path, goal, fixtures))
+    sought = Sought()
+    assert judges.places(1, sought) == []
+    assert words in sought.reason()
+
+
 def test_where_no_place_is_free_the_reason_says_so(tmp_path) -> None:
     fixtures = {"tray": tray(0.03, 0.03, 0.02, AT)}
     result = handey.plan(handey.load_cell(write(tmp_path, {"inside": "tray"}, fixtures)))

@@ -26,7 +26,7 @@ from handey.placement import (
 from handey.resting import Placement, PlacementOptions, Sought, placements, same_rest
 from handey.task import Goal, PlaceAt, PlaceInside, PlaceOn
 
-__all__ = ["is_met", "places_for", "rest_of"]
+__all__ = ["is_met", "places_for"]
 
 SAME_FACE = np.cos(np.radians(1.0))  # Choice: the tolerance of faces elsewhere
 SAME_REST_FIRST = 8  # Choice: so many placements without turning the part over come first
@@ -108,14 +108,6 @@ def _spills(hull: np.ndarray, region: _core.Region) -> bool:
     return bool(_core.subtract(_core.Region([hull]), region).area > NO_AREA)
 
 
-def rest_of(rests: Sequence[_core.RestingPose], X_WP: np.ndarray) -> int | None:
-    """Index of the rest in which a part stands at X_WP (4, 4); None if it is none of them."""
-    for index, rest in enumerate(rests):
-        if rest.X_SP[2, :3] @ X_WP[2, :3] >= SAME_FACE:
-            return index
-    return None
-
-
 def places_for(
     goal: Goal,
     cell: _core.Cell,
@@ -144,19 +136,18 @@ def places_for(
         return
     part = cell.part_index(goal.part)
     X_WP = cell.parts[part].X_WB
-    rests = None
-    if isinstance(goal, PlaceOn) and goal.same_resting:
-        rests = same_rest(cell.parts[part], start.parts[part].X_WB)
+    body = cell.parts[part]
+    only_same = isinstance(goal, PlaceOn) and goal.same_resting
+    same = same_rest(body, start.parts[part].X_WB if only_same else X_WP)
     region = goal.region if isinstance(goal, PlaceOn) else None
 
-    def stream(only: list[int] | None) -> Iterator[Placement]:
+    def stream(rests: list[_core.RestingPose] | None) -> Iterator[Placement]:
         return placements(
             cell,
             model,
             part,
             on=[goal.fixture],
             rests=rests,
-            only=only,
             region=region,
             inside=isinstance(goal, PlaceInside),
             near=X_WP if region is None else None,
@@ -165,8 +156,9 @@ def places_for(
             sought=sought,
         )
 
+    places = stream(same) if only_same else _same_rest_first(stream(same), stream(None), X_WP)
     waiting = []
-    for place in _same_rest_first(stream, cell.parts[part], X_WP, rests is None):
+    for place in places:
         target = PlaceAt(goal.part, place.X_WP)
         if _is_free(cell, model, target, kept_free):
             yield target
@@ -175,16 +167,13 @@ def places_for(
     yield from waiting
 
 
-def _same_rest_first(stream, part, X_WP, many_rests: bool) -> Iterator[Placement]:  # type: ignore[no-untyped-def]
-    """Some placements in the rest that the part is in now, then all others."""
-    now = rest_of(_core.resting_poses(part), X_WP) if many_rests else None
-    if now is None:
-        yield from stream(None)
-        return
-    same = stream([now])
+def _same_rest_first(
+    same: Iterator[Placement], others: Iterator[Placement], X_WP: np.ndarray
+) -> Iterator[Placement]:
+    """Some placements in the rest that the part is in now, then others and these in turn."""
     yield from islice(same, SAME_REST_FIRST)
-    for place in stream(None):
-        if place.rest != now:
+    for place in others:
+        if not _same(place.X_WP, X_WP):
             yield place
         after = next(same, None)
         if after is not None:

@@ -17,12 +17,12 @@ import numpy as np
 
 from handey import _core
 from handey.cell_file import CellFile
-from handey.goal_places import places_for, rest_of
+from handey.goal_places import places_for
 from handey.in_the_way import carries, runs_into
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
 from handey.report import GoalReport, Report, StageClock
-from handey.resting import PlacementOptions, Sought, placements
+from handey.resting import PlacementOptions, Sought, placements, same_rest
 from handey.task import PlaceAt
 
 __all__ = ["Hands", "Move", "Mover", "State"]
@@ -231,14 +231,13 @@ class Mover:
     ) -> Iterator[PlaceAt]:
         """Places with room for the jaws between the part and where others go, then the rest."""
         X_WP = cell.parts[part].X_WB
-        rest = rest_of(_core.resting_poses(cell.parts[part]), X_WP)
         tight = []
         for place in placements(
             cell,
             self.hands.model,
             part,
             on=on,
-            only=None if rest is None else [rest],
+            rests=same_rest(cell.parts[part], X_WP),
             near=X_WP,
             solver=self.hands.solver,
             options=PlacementOptions(seed=self.options.seed),

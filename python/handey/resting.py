@@ -72,20 +72,21 @@ class Sought:
     """What became of the samples of a stream so far, for reports."""
 
     tried: int = 0
+    lack: str = "there is no upward horizontal face on which the part can stand"
     fallen: Counter[str] = field(default_factory=Counter)
     met: Counter[str] = field(default_factory=Counter)
 
     def reason(self) -> str:
         """Why there are no more placements, in words."""
         if not self.tried:
-            return "there is no upward horizontal face on which the part can stand"
+            return self.lack
         counts = ", ".join(f"{count} {why}" for why, count in self.fallen.most_common() if count)
         met = self.met.most_common(1)
         return f"{self.tried} places: {counts}" + (f"; most met {met[0][0]}" if met else "")
 
 
 def same_rest(part: _core.Body, X_WP: np.ndarray) -> list[_core.RestingPose]:
-    """The rest in which a part stands at X_WP (4, 4), alone: for goals with `resting: same`."""
+    """The rest in which a part stands at X_WP (4, 4), and no other; of a round side any roll."""
     return [_core.resting_pose(part, np.asarray(X_WP)[2, :3])]
 
 
@@ -131,6 +132,8 @@ def placements(
     indices = list(range(len(chosen))) if only is None else list(only)
     target = None if near is None else _point(np.asarray(near, dtype=float))
     grounds = [(name, face, rest) for rest in indices for name, face in faces]
+    if inside:
+        sought.lack = f"no walls of {' or '.join(on or ['the supports'])} enclose a horizontal face"
     if not grounds:
         return
     first = 0

@@ -142,6 +142,7 @@ class Finder {
   }
 
   StandingPlaces run() {
+    if (domain_.isEmpty()) found_.tried = found_.outside_the_region = options_.count;
     if (domain_.isEmpty() || rest_.footprint.size() < 3) return found_;
     for (int i = 0; i < options_.count; ++i) look_at(options_.first + i);
     const bool tight = options_.inside || options_.region;
