@@ -55,7 +55,7 @@ class DirectOptions:
     retreat: _core.RetreatOptions = field(default_factory=_core.RetreatOptions)
     departure: _core.DepartureOptions = field(default_factory=_core.DepartureOptions)
     roomier: _core.DepartureOptions = field(
-        default_factory=lambda: _core.DepartureOptions(search_levels=0)
+        default_factory=lambda: _core.DepartureOptions(most_slides=1, search_levels=0)
     )
     gross: _core.GrossOptions = field(default_factory=_core.GrossOptions)
     most_places: int = 4

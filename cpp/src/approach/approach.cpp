@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "handey/approach/joined_destination.hpp"
 #include "handey/errors.hpp"
@@ -20,6 +23,8 @@ namespace {
 // Choice: a run-in that something cut short is good at once if the robot has this much room where
 // it begins; else better ones are looked for first [m].
 constexpr double kRoom = 0.015;
+// Choice: the fingers pass the widest place of the part this far from it, each side [m].
+constexpr double kPast = 0.002;
 
 void require_range(bool good, const std::string& message) {
   if (!good) throw InvalidInput("E_RANGE", "plan_approach", message);
@@ -72,27 +77,39 @@ ApproachResult straight_result(const ApproachTask& task, const StraightWay& way)
   return result;
 }
 
-ApproachResult plan(const ApproachTask& task, CollisionChecker& checker) {
-  const ApproachOptions& options = task.options;
-  HandReach reach(task.solver, checker, task.X_WG, task.aim.flipped, task.aim.opening,
-                  options.legality.clearance);
-  const StraightWay straight = straight_way(task, reach);
-  const bool is_long = straight.length >= options.least_run_in - 1e-9;
-  const bool is_whole = straight.length >= options.run_in - 1e-9;
-  if (is_whole ||
-      (is_long && reach.checker().closest(straight.path.front(), kRoom).distance >= kRoom)) {
-    return straight_result(task, straight);
+/// All planners at one grasp, the hand as wide open as there.
+class Opening {
+ public:
+  Opening(const Opening&) = delete;
+  Opening& operator=(const Opening&) = delete;
+  Opening(ApproachTask task, CollisionChecker& checker)
+      : task_(std::move(task)),
+        reach_(task_.solver, checker, task_.X_WG, task_.aim.flipped, task_.aim.opening,
+               task_.options.legality.clearance) {}
+
+  /// Straight in, then by slides. A straight way that begins where there is little room is kept for
+  /// last.
+  ApproachResult come_in() {
+    const ApproachOptions& options = task_.options;
+    const StraightWay straight = straight_way(task_, reach_);
+    if (straight.length >= options.least_run_in - 1e-9) {
+      last_resort_ = straight_result(task_, straight);
+      const bool is_whole = straight.length >= options.run_in - 1e-9;
+      const Configuration& start = straight.path.front();
+      if (is_whole || reach_.checker().closest(start, kRoom).distance >= kRoom) {
+        return *last_resort_;
+      }
+    }
+    return SlideApproach(task_, reach_).run();
   }
-  ApproachResult slide = SlideApproach(task, reach).run();
-  if (slide.found()) return slide;
-  if (options.search_levels > 0) {
-    ApproachResult searched = SearchApproach(task, reach).run();
-    if (searched.found()) return searched;
-    slide.planner = searched.planner;
-    slide.reason += "; search: " + searched.reason;
-  }
-  return is_long ? straight_result(task, straight) : slide;
-}
+  ApproachResult search() { return SearchApproach(task_, reach_).run(); }
+  const std::optional<ApproachResult>& last_resort() const { return last_resort_; }
+
+ private:
+  const ApproachTask task_;
+  HandReach reach_;
+  std::optional<ApproachResult> last_resort_;
+};
 
 /// The same grasp with the hand less open, where that is legal too, next wider first.
 std::vector<GraspPose> less_open(const GraspScene& scene, const SphericalWristSolver& solver,
@@ -113,6 +130,44 @@ std::vector<GraspPose> less_open(const GraspScene& scene, const SphericalWristSo
   return result;
 }
 
+/// The same grasp with the hand so wide open that the fingers pass the part wherever it is wider
+/// than at the grasp, where that is legal too.
+std::optional<GraspPose> past_part(const GraspScene& scene, const SphericalWristSolver& solver,
+                                   const RankedPair& pair, const GraspPose& aim,
+                                   const ApproachOptions& options) {
+  double reach = 0.0;  // of the part along the closing axis, to either side
+  for (const Shape& shape : scene.cell.parts[static_cast<std::size_t>(scene.part)].shapes) {
+    for (const Eigen::Vector3d& point : hull_points(shape)) {
+      reach = std::max(reach, std::abs((aim.X_PH.inverse(Eigen::Isometry) * point).y()));
+    }
+  }
+  const double most = scene.cell.robot->gripper.max_opening;
+  const double opening = std::min(most, 2.0 * (reach + kPast));
+  if (opening <= aim.opening + 1e-4) return std::nullopt;
+  LegalityOptions legality = options.legality;
+  legality.least_contact_share = 0.0;  // the aim has enough
+  legality.open_clearance = 0.5 * (opening - aim.width);
+  const LegalGrasps legal =
+      test_grasp_pose(scene, solver, pair, aim.in_plane, aim.flipped, legality);
+  if (legal.poses.empty() || legal.poses.front().opening < opening - 1e-4) return std::nullopt;
+  return legal.poses.front();
+}
+
+/// With the arm as in `q_pick`.
+std::vector<GraspPose> other_openings(const GraspScene& scene, const SphericalWristSolver& solver,
+                                      const RankedPair& pair, const GraspPose& aim,
+                                      const Eigen::VectorXd& q_pick,
+                                      const ApproachOptions& options) {
+  std::vector<GraspPose> result = less_open(scene, solver, pair, aim, options);
+  std::optional<GraspPose> wide = past_part(scene, solver, pair, aim, options);
+  if (wide) result.push_back(std::move(*wide));
+  const auto is_elsewhere = [&](const GraspPose& grasp) {
+    return same_configuration(grasp.q_pick, q_pick) == nullptr;
+  };
+  result.erase(std::remove_if(result.begin(), result.end(), is_elsewhere), result.end());
+  return result;
+}
+
 }  // namespace
 
 ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver& solver,
@@ -123,19 +178,37 @@ ApproachResult plan_approach(const GraspScene& scene, const SphericalWristSolver
   CollisionChecker checker = options.destination_obstacles_join
                                  ? make_checker(join_destination(scene))
                                  : CollisionChecker(scene.model, scene.cell);
-  const auto with = [&](const GraspPose& grasp, const ApproachOptions& budget) {
-    return plan({scene, solver, pair, grasp, q_pick, budget, X_WG,
-                 gripper_outline(*scene.cell.robot, grasp.opening, grasp.flipped)},
-                checker);
-  };
-  ApproachResult result = with(aim, options);
-  if (result.found()) return result;
   ApproachOptions brief = options;
   brief.search_levels = std::min(options.search_levels, 1);
-  for (const GraspPose& grasp : less_open(scene, solver, pair, aim, options)) {
-    if (!same_configuration(grasp.q_pick, q_pick)) continue;
-    ApproachResult narrow = with(grasp, brief);
-    if (narrow.found()) return narrow;
+  std::deque<Opening> openings;  // an Opening refers to its own members
+  const auto add = [&](const GraspPose& grasp, const ApproachOptions& budget) -> Opening& {
+    openings.emplace_back(
+        ApproachTask{scene, solver, pair, grasp, q_pick, budget, X_WG,
+                     gripper_outline(*scene.cell.robot, grasp.opening, grasp.flipped)},
+        checker);
+    return openings.back();
+  };
+  Opening& first = add(aim, options);
+  ApproachResult result = first.come_in();
+  if (result.found()) return result;
+  // The searches cost most: they wait until all that is quick has been tried.
+  const std::vector<GraspPose> others =
+      first.last_resort() ? std::vector<GraspPose>{}
+                          : other_openings(scene, solver, pair, aim, q_pick, options);
+  for (const GraspPose& grasp : others) {
+    ApproachResult other = add(grasp, brief).come_in();
+    if (other.found()) return other;
+  }
+  for (Opening& opening : openings) {
+    if (options.search_levels > 0) {
+      ApproachResult searched = opening.search();
+      if (searched.found()) return searched;
+      if (&opening == &first) {
+        result.planner = searched.planner;
+        result.reason += "; search: " + searched.reason;
+      }
+    }
+    if (opening.last_resort()) return *opening.last_resort();
   }
   return result;
 }

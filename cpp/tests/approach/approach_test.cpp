@@ -278,6 +278,32 @@ TEST(PlanApproach, HoldsOffObstaclesOfTheDestinationWhereTheArticleWantsIt) {
   EXPECT_GT(found, 0);
 }
 
+TEST(PlanApproach, OpensTheHandWiderWhereThePartIsWiderThanAtTheGrasp) {
+  // A bar between two wider blocks, under rails over the hand's shoulders: the hand can come along
+  // the bar only, past one of the blocks.
+  Cell cell = block_on_table({
+      box("left rail", {0.05, 0.24, 0.01}, at(0.427, 0.2, 0.165)),
+      box("right rail", {0.05, 0.24, 0.01}, at(0.573, 0.2, 0.165)),
+  });
+  cell.parts[0].shapes = {{Box{{0.02, 0.12, 0.05}}, Pose::Identity()},
+                          {Box{{0.05, 0.02, 0.05}}, at(0, 0.05, 0)},
+                          {Box{{0.05, 0.02, 0.05}}, at(0, -0.05, 0)}};
+  const GraspScene scene = scene_of(cell, at(0.5, -0.2, 0.025));
+  const SphericalWristSolver solver(*scene.cell.robot);
+  int on_bar = 0, wider = 0;
+  for (const Aim& aim : aims(scene, solver, 16)) {
+    if (std::abs(aim.grasp.width - 0.02) > 1e-6 || aim.grasp.X_PH(2, 2) > -0.99) continue;
+    ++on_bar;
+    const ApproachResult result =
+        plan_approach(scene, solver, aim.pair, aim.grasp, aim.grasp.q_pick.front());
+    if (!result.found()) continue;
+    expect_good(scene, aim.pair, result);
+    if (result.grasp.opening > 0.05) ++wider;
+  }
+  EXPECT_GT(on_bar, 0);
+  EXPECT_GT(wider, 0);
+}
+
 TEST(PlanApproach, RefusesWhatDoesNotFit) {
   const GraspScene scene = scene_of(block_on_table(), at(0.5, -0.2, 0.025));
   const SphericalWristSolver solver(*scene.cell.robot);

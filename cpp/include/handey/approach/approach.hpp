@@ -65,7 +65,8 @@ struct ApproachResult {
 
 /// Slide from a start `run_in` away toward the grasp pose `aim`, with the arm in the branch of
 /// `q_pick` (one of aim.q_pick). Straight in first; then from nearer, then from starts turned about
-/// the fingertips by up to 90 degrees.
+/// the fingertips by up to 90 degrees. Where that fails with the hand open as at the aim, it is
+/// tried less open, then open as wide as the part is anywhere; then all of them are searched.
 /// @throws InvalidInput (E_RANGE, E_NUMBER, E_DOF, E_VALUE) for options out of range, a hand that
 /// is not empty, a q_pick
 ///         that does not put the hand at `aim`
