@@ -1,4 +1,4 @@
-"""The command `handey`: plan a cell's task, check a plan, show one, draw slices.
+"""The command `handey`: plan a cell's task, check a plan, show one, draw slices, inspect.
 
 Results go to standard output, faults and warnings to standard error. Exit status: 0 done; 1 the
 plan is not valid; 2 bad input, each fault one line `handey: FILE: PLACE: what is wrong`; 3 no plan
@@ -27,6 +27,7 @@ from handey.commands import (
     view_command,
 )
 from handey.errors import InvalidInput
+from handey.inspect_command import inspect_command
 from handey.slice_command import slice_command
 from handey.terminal import complain
 
@@ -150,7 +151,25 @@ def parser() -> argparse.ArgumentParser:
     view.add_argument("-o", "--output", metavar="HTML", help="page (default: name of CELL + .html)")
     view.set_defaults(run=view_command)
 
-    for command in (plan, check, slices, view):
+    inspect = commands.add_parser(
+        "inspect", help="tell what a part, a robot or a cell is", allow_abbrev=False
+    )
+    inspect.add_argument(
+        "file",
+        metavar="PART|ROBOT|CELL",
+        help="mesh (STL, OBJ, PLY), robot file or URDF, cell file; CELL:NAME is a part of a cell",
+    )
+    inspect.add_argument("--part", metavar="NAME", help="the part of a cell file")
+    inspect.add_argument(
+        "--scale", type=_scale, metavar="S", help="metres per unit of a mesh (default 1)"
+    )
+    inspect.add_argument(
+        "--robot", metavar="ROBOT", help="robot file whose jaws are to hold the part"
+    )
+    inspect.add_argument("-o", "--output", metavar="HTML", help="write a page with pictures too")
+    inspect.set_defaults(run=inspect_command)
+
+    for command in (plan, check, slices, view, inspect):
         if command is not view:
             command.add_argument(
                 "--json", action="store_true", help="print the summary as one JSON object"
@@ -178,6 +197,16 @@ def _angle(text: str) -> float:
     if not math.isfinite(degrees):
         raise argparse.ArgumentTypeError(f"expected a number of degrees, found '{text}'")
     return degrees
+
+
+def _scale(text: str) -> float:
+    try:
+        scale = float(text)
+    except ValueError:
+        scale = math.nan
+    if not (math.isfinite(scale) and scale > 0):
+        raise argparse.ArgumentTypeError(f"expected a number greater than 0, found '{text}'")
+    return scale
 
 
 def _seed(text: str) -> int:
