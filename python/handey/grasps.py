@@ -20,6 +20,8 @@ __all__ = ["Grasps", "describe"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
 DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs, the best
+# Which pairs, and how densely if not as usual.
+_Pass = tuple[_core.PairChoice, "_core.LegalityOptions | None"]
 # A hand pose: its pair, place and direction in the grasp plane, half-turn.
 _PoseKey = tuple[str, float, float, float, bool]
 
@@ -56,39 +58,40 @@ class Grasps:
         report.funnel, report.reasons, report.attempts = {}, [], []
         self._work, self._options, self._report = work, options, report
         self._seen = _Seen()
-        self._denser = list(options.denser)
-        self._narrow: list[_core.RankedPair] | None = None
+        self._narrow: dict[_core.PairChoice, list[_core.RankedPair]] = {}
+        self._passes = _passes(options)
 
     def first(self) -> Iterator[Grasp]:
-        """Two faces, in denser passes as long as none could be approached; then other pairs."""
-        options, report = self._options, self._report
-        choice = options.ranking.pairs
-        if choice != _core.PairChoice.BeyondFaces:
-            ranking = _rank(self._work, options.ranking, _core.PairChoice.TwoFaces)
-            _report_faces(report, ranking, options.ranking)
-            yield from self._legal(ranking.ranked, options.legality)
-            while self._denser and not report.funnel.get("approached"):
-                yield from self._pass()
-        if choice != _core.PairChoice.TwoFaces and options.ranking.features.beyond_faces:
-            ranking = _rank(self._work, options.ranking, _core.PairChoice.BeyondFaces)
-            _report_beyond_faces(report, ranking)
-            yield from self._legal(ranking.ranked, options.legality)
+        """All pairs, two faces first; in denser passes as long as none could be approached."""
+        spared: list[_Pass] = []
+        for kind, denser in self._passes:
+            if denser is None:
+                ranking = _rank(self._work, self._options.ranking, kind)
+                _report_pairs(self._report, ranking, kind, self._options.ranking)
+                yield from self._legal(ranking.ranked, self._options.legality)
+            elif self._report.funnel.get("approached"):
+                spared.append((kind, denser))
+            else:
+                yield from self._legal(self._best(kind, denser), denser)
+        self._passes = spared
 
     def rest(self) -> Iterator[Grasp]:
         """What the denser passes give that were spared, because a grasp could be approached."""
-        while self._denser and self._options.ranking.pairs != _core.PairChoice.BeyondFaces:
-            yield from self._pass()
+        passes, self._passes = self._passes, []
+        for kind, denser in passes:
+            assert denser is not None
+            yield from self._legal(self._best(kind, denser), denser)
 
-    def _pass(self) -> Iterator[Grasp]:
-        """One denser pass over the best pairs of faces."""
-        legality = self._denser.pop(0)
-        if self._narrow is None:
+    def _best(
+        self, kind: _core.PairChoice, denser: _core.LegalityOptions
+    ) -> list[_core.RankedPair]:
+        """The pairs that denser passes look at."""
+        if kind not in self._narrow:
             # The room that the fingers need when the jaws open as little as legality lets them.
             wanted = self._options.ranking
-            least = min(wanted.open_clearance, legality.open_clearance / 4)
-            ranking = _rank(self._work, wanted, _core.PairChoice.TwoFaces, least)
-            self._narrow = ranking.ranked[:DENSER_PAIRS]
-        yield from self._legal(self._narrow, legality)
+            least = min(wanted.open_clearance, denser.open_clearance / 4)
+            self._narrow[kind] = _rank(self._work, wanted, kind, least).ranked[:DENSER_PAIRS]
+        return self._narrow[kind]
 
     def _legal(
         self, ranked: list[_core.RankedPair], legality: _core.LegalityOptions
@@ -120,6 +123,20 @@ class Grasps:
         else:
             seen.tell(self._report, name, _illegal(pair, found), is_new=True)
         return fresh
+
+
+def _passes(options: PlanOptions) -> list[_Pass]:
+    """Two faces, once more denser; then other pairs; then the rest of the denser passes."""
+    faces, beyond = _core.PairChoice.TwoFaces, _core.PairChoice.BeyondFaces
+    looked_at = {faces, beyond}
+    if options.ranking.pairs in looked_at:
+        looked_at = {options.ranking.pairs}
+    if not options.ranking.features.beyond_faces:
+        looked_at -= {beyond}
+    denser = options.denser
+    order: list[_Pass] = [(faces, None), *((faces, d) for d in denser[:1]), (beyond, None)]
+    order += [(faces, d) for d in denser[1:]] + [(beyond, d) for d in denser]
+    return [(kind, legality) for kind, legality in order if kind in looked_at]
 
 
 def _rank(
@@ -168,6 +185,18 @@ def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
     counts = ", ".join(f"{count} {where}" for where, count in fallen.items() if count)
     name = f"{pair.pair}, {1e3 * pair.pair.width:.1f} mm"
     return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
+
+
+def _report_pairs(
+    report: GoalReport,
+    ranking: _core.Ranking,
+    kind: _core.PairChoice,
+    options: _core.RankingOptions,
+) -> None:
+    if kind == _core.PairChoice.TwoFaces:
+        _report_faces(report, ranking, options)
+    else:
+        _report_beyond_faces(report, ranking)
 
 
 def _report_faces(

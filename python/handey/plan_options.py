@@ -21,11 +21,11 @@ MOST_ITERATIONS = 2**31 - 1
 
 
 def _denser() -> tuple[_core.LegalityOptions, ...]:
-    # Choice: 8 mm, at 15 degrees, then at 5; down to poses that have little more than the least
-    # contact, those with more first.
-    return tuple(
-        _core.LegalityOptions(directions=n, spacing=0.008, least_contact_share=0.15)
-        for n in (24, 72)
+    # Choice: 8 mm and 15 degrees, with half of the usual contact; then 6 mm and 5 degrees, with
+    # little more contact than a valid plan must have. Poses with more contact come first.
+    return (
+        _core.LegalityOptions(directions=24, spacing=0.008, least_contact_share=0.15),
+        _core.LegalityOptions(directions=72, spacing=0.006, least_contact_share=0.05),
     )
 
 
