@@ -236,6 +236,17 @@ bool has_piece_inside(const Polyhedral& a, const Pose& X_WA, const Polyhedral& b
                      [&](const Vector3d& seed) { return b.tree.contains(X_BA * seed); });
 }
 
+/// A piece that is not convex from one that is. @param boxes  distance of the first one's box
+double mesh_to_convex(const Piece& mesh, const Pose& X_WM, const Piece& convex, const Pose& X_WC,
+                      double boxes, double least, double enough) {
+  const Pose X_MC = X_WM.inverse(Eigen::Isometry) * X_WC;
+  const SurfaceTree& tree = mesh.polyhedral().tree;
+  const double surface = tree.distance(convex.hull, X_MC, least, enough);
+  if (surface <= least || boxes > 0.0) return surface;
+  // The surface does not cross the convex piece: all of it is inside, or none.
+  return mesh.solid && tree.contains(X_MC * convex.hull.centre) ? 0.0 : surface;
+}
+
 }  // namespace
 
 double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Pose& X_WB,
@@ -245,6 +256,8 @@ double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Po
   }
   const double boxes = convex_distance(a.hull, X_WA, b.hull, X_WB, 0.0, enough);
   if (boxes > enough) return boxes;
+  if (a.convex) return mesh_to_convex(b, X_WB, a, X_WA, boxes, least, enough);
+  if (b.convex) return mesh_to_convex(a, X_WA, b, X_WB, boxes, least, enough);
   const Polyhedral& mesh_a = a.polyhedral();
   const Polyhedral& mesh_b = b.polyhedral();
   // A little beyond `enough`, so that reaching the horizon means farther than enough.

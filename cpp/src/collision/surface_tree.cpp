@@ -48,6 +48,11 @@ bool ray_meets(const Eigen::AlignedBox3d& box, const Vector3d& origin, const Vec
   return enter <= leave;
 }
 
+/// Are two boxes farther apart than `distance`?
+bool is_beyond(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double distance) {
+  return distance <= 0.0 ? !a.intersects(b) : a.squaredExteriorDistance(b) > distance * distance;
+}
+
 }  // namespace
 
 double point_triangle_distance(const Vector3d& point, const Vector3d& a, const Vector3d& b,
@@ -125,6 +130,66 @@ void SurfaceTree::nearest(int index, const Vector3d& point, double& squared) con
       nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(point);
   nearest(to_left <= to_right ? node.left : node.right, point, squared);
   nearest(to_left <= to_right ? node.right : node.left, point, squared);
+}
+
+/// A convex solid beside the surface, and how near they are as far as was looked.
+struct SurfaceTree::Query {
+  const ConvexSolid& solid;
+  const Pose& X_MS;
+  double least;
+  double nearest;           ///< no farther than `enough` counts [m]
+  Eigen::AlignedBox3d box;  ///< of the solid, in the mesh's frame
+  ConvexSolid triangle;     ///< the one looked at
+};
+
+double SurfaceTree::distance(const ConvexSolid& solid, const Pose& X_MS, double least,
+                             double enough) const {
+  Query query{solid, X_MS, least, std::numeric_limits<double>::infinity(), {}, {}};
+  const Eigen::Matrix3d R_SM = X_MS.linear().transpose();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d along = R_SM.col(axis);
+    query.box.min()[axis] = (X_MS * solid.farthest(-along))[axis] - solid.rounding;
+    query.box.max()[axis] = (X_MS * solid.farthest(along))[axis] + solid.rounding;
+  }
+  query.triangle.points.resize(3);
+  // Farther than enough is all the same.
+  query.nearest = enough + 1e-9 * (1.0 + enough);
+  if (!nodes_.empty()) nearest(0, query);
+  return query.nearest;
+}
+
+void SurfaceTree::nearest(int index, Query& query) const {
+  const Node& node = nodes_[static_cast<std::size_t>(index)];
+  if (query.nearest <= query.least) return;
+  if (node.left < 0) {
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const Eigen::Vector3i& t =
+          mesh_.triangles[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
+      Eigen::AlignedBox3d box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d& corner =
+            mesh_.vertices[static_cast<std::size_t>(t[static_cast<Eigen::Index>(k)])];
+        query.triangle.points[k] = corner;
+        box.extend(corner);
+      }
+      if (is_beyond(box, query.box, query.nearest)) continue;
+      query.triangle.centre =
+          (query.triangle.points[0] + query.triangle.points[1] + query.triangle.points[2]) / 3.0;
+      query.nearest =
+          std::min(query.nearest, convex_distance(query.triangle, Pose::Identity(), query.solid,
+                                                  query.X_MS, query.least, query.nearest));
+      if (query.nearest <= query.least) return;
+    }
+    return;
+  }
+  const Eigen::AlignedBox3d& left = nodes_[static_cast<std::size_t>(node.left)].box;
+  const Eigen::AlignedBox3d& right = nodes_[static_cast<std::size_t>(node.right)].box;
+  const bool left_first =
+      left.squaredExteriorDistance(query.box) <= right.squaredExteriorDistance(query.box);
+  for (const bool to_left : {left_first, !left_first}) {
+    if (is_beyond(to_left ? left : right, query.box, query.nearest)) continue;
+    nearest(to_left ? node.left : node.right, query);
+  }
 }
 
 bool SurfaceTree::contains(const Vector3d& point) const {

@@ -1,12 +1,14 @@
 // Which point of a triangle surface is nearest, and is a point inside the solid that the surface
 // bounds? A tree of axis-parallel boxes in the mesh's own frame. Inside is decided by the winding
 // along a ray, repeated in another direction whenever the ray passes too near an edge to be sure,
-// and by the solid angle if all fail.
+// and by the solid angle if all fail. How far a convex solid is from the surface: triangle by
+// triangle, of those whose boxes come near.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "convex_distance.hpp"
 #include "handey/geometry/polyhedron.hpp"
 
 namespace handey::collision {
@@ -17,6 +19,10 @@ class SurfaceTree {
 
   /// Distance of the point from the surface [m].
   double distance(const Eigen::Vector3d& point) const;
+  /// Distance of a convex solid from the surface; same terms as convex_distance. 0 or less where
+  /// they cross or the surface is inside the solid.
+  /// @param X_MS  the solid in the mesh's frame
+  double distance(const ConvexSolid& solid, const Pose& X_MS, double least, double enough) const;
   /// True if the surface winds round the point.
   bool contains(const Eigen::Vector3d& point) const;
 
@@ -33,8 +39,10 @@ class SurfaceTree {
     int first = 0, count = 0;  // leaf: triangles order_[first .. first + count); inner: count = 0
     int left = -1, right = -1;
   };
+  struct Query;
   int build(int first, int count, std::vector<Eigen::Vector3d>& centres);
   void nearest(int node, const Eigen::Vector3d& point, double& squared) const;
+  void nearest(int node, Query& query) const;
   /// Times the surface crosses the ray outwards less inwards. @return false if an edge is hit
   bool winding_along(int node, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
                      int& winding) const;
