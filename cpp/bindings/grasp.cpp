@@ -336,15 +336,16 @@ Args:
   py::class_<LegalityOptions>(m, "LegalityOptions", "Options of find_legal_grasps.")
       .def(py::init([](int directions, double spacing, double open_clearance, double clearance,
                        double least_contact_share, double grip_force, double grip_ratio,
-                       int most_poses) {
-             return LegalityOptions{directions,          spacing,    open_clearance, clearance,
-                                    least_contact_share, grip_force, grip_ratio,     most_poses};
+                       int most_poses, bool spread) {
+             return LegalityOptions{
+                 directions, spacing,    open_clearance, clearance, least_contact_share,
+                 grip_force, grip_ratio, most_poses,     spread};
            }),
            py::kw_only(), "directions"_a = defaults.directions, "spacing"_a = defaults.spacing,
            "open_clearance"_a = defaults.open_clearance, "clearance"_a = defaults.clearance,
            "least_contact_share"_a = defaults.least_contact_share,
            "grip_force"_a = defaults.grip_force, "grip_ratio"_a = defaults.grip_ratio,
-           "most_poses"_a = defaults.most_poses)
+           "most_poses"_a = defaults.most_poses, "spread"_a = defaults.spread)
       .def_readwrite("directions", &LegalityOptions::directions,
                      "Approach directions per target; those along edges come on top.")
       .def_readwrite("spacing", &LegalityOptions::spacing,
@@ -358,7 +359,9 @@ Args:
                      "Of the jaws, for parts whose mass or density is known [N].")
       .def_readwrite("grip_ratio", &LegalityOptions::grip_ratio,
                      "Friction of both pads over the part's weight where its mass is not known.")
-      .def_readwrite("most_poses", &LegalityOptions::most_poses, "Returned per pair.");
+      .def_readwrite("most_poses", &LegalityOptions::most_poses, "Returned per pair.")
+      .def_readwrite("spread", &LegalityOptions::spread,
+                     "Candidates in an order spread over all of them, not the best first.");
   py::class_<GraspPose>(m, "GraspPose", "A grasp with all configurations that are legal for it.")
       .def_readonly("in_plane", &GraspPose::in_plane, "PlanarPose.")
       .def_readonly("flipped", &GraspPose::flipped, "The hand is turned half round.")
@@ -401,6 +404,32 @@ Returns:
 
 Raises:
     InvalidInput: for a scene with a part in the hand, an unknown part, bad options.)");
+  py::class_<LegalGraspSearch>(m, "LegalGraspSearch",
+                               R"(find_legal_grasps in portions, for pairs looked at by turns.
+
+Args:
+    scene: GraspScene.
+    solver: SphericalWristSolver of the scene's robot.
+    pair: RankedPair.
+    options: LegalityOptions.
+
+Raises:
+    InvalidInput: as find_legal_grasps.)")
+      .def(py::init<const GraspScene&, const SphericalWristSolver&, const RankedPair&,
+                    const LegalityOptions&>(),
+           "scene"_a, "solver"_a, "pair"_a, "options"_a = LegalityOptions(), py::keep_alive<1, 3>(),
+           Unlocked())
+      .def_property_readonly("is_done", &LegalGraspSearch::is_done,
+                             "No candidate is left, or enough are legal.")
+      .def("next", &LegalGraspSearch::next, "candidates"_a, Unlocked(),
+           R"(Test so many candidates more, at most, each with both half-turns of the hand.
+
+Args:
+    candidates: at least 1.
+
+Returns:
+    The GraspPoses of these that are legal, best merit first.)")
+      .def("result", &LegalGraspSearch::result, "LegalGrasps of all candidates so far.");
   m.def("test_grasp_pose", &test_grasp_pose, "scene"_a, "solver"_a, "pair"_a, "pose"_a, "flipped"_a,
         "options"_a = LegalityOptions(), Unlocked(),
         R"(Is one hand pose of a pair legal at both ends?

@@ -64,6 +64,7 @@ __all__: list[str] = [
     "JointLimit",
     "Lattice",
     "LayerOptions",
+    "LegalGraspSearch",
     "LegalGrasps",
     "LegalityOptions",
     "LoadedMesh",
@@ -2164,6 +2165,7 @@ class LegalityOptions:
         grip_force: typing.SupportsFloat | typing.SupportsIndex = 70.0,
         grip_ratio: typing.SupportsFloat | typing.SupportsIndex = 20.0,
         most_poses: typing.SupportsInt | typing.SupportsIndex = 16,
+        spread: bool = False,
     ) -> None: ...
     @property
     def clearance(self) -> float:
@@ -2221,6 +2223,13 @@ class LegalityOptions:
         """
     @spacing.setter
     def spacing(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def spread(self) -> bool:
+        """
+        Candidates in an order spread over all of them, not the best first.
+        """
+    @spread.setter
+    def spread(self, arg0: bool) -> None: ...
 
 class GraspPose:
     """
@@ -2305,6 +2314,46 @@ class LegalGrasps:
     def would_turn(self) -> int:
         """
         Where the part's weight would turn it in the jaws.
+        """
+
+class LegalGraspSearch:
+    """
+    find_legal_grasps in portions, for pairs looked at by turns.
+
+    Args:
+        scene: GraspScene.
+        solver: SphericalWristSolver of the scene's robot.
+        pair: RankedPair.
+        options: LegalityOptions.
+
+    Raises:
+        InvalidInput: as find_legal_grasps.
+    """
+    def __init__(
+        self,
+        scene: GraspScene,
+        solver: SphericalWristSolver,
+        pair: RankedPair,
+        options: LegalityOptions = ...,
+    ) -> None: ...
+    def next(self, candidates: typing.SupportsInt | typing.SupportsIndex) -> list[GraspPose]:
+        """
+        Test so many candidates more, at most, each with both half-turns of the hand.
+
+        Args:
+            candidates: at least 1.
+
+        Returns:
+            The GraspPoses of these that are legal, best merit first.
+        """
+    def result(self) -> LegalGrasps:
+        """
+        LegalGrasps of all candidates so far.
+        """
+    @property
+    def is_done(self) -> bool:
+        """
+        No candidate is left, or enough are legal.
         """
 
 class MotionGrid:

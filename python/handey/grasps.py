@@ -8,7 +8,8 @@ Not guaranteed: that a grasp which is yielded can be reached; that is the approa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from handey import _core
@@ -19,11 +20,18 @@ from handey.report import GoalReport
 __all__ = ["Grasps", "describe"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
-DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs, the best
-# Which pairs, and how densely if not as usual.
-_Pass = tuple[_core.PairChoice, "_core.LegalityOptions | None"]
+DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs of a kind, the best
+PORTION = 200  # Choice: candidates of one pair tested before the next pair has its turn
 # A hand pose: its pair, place and direction in the grasp plane, half-turn.
 _PoseKey = tuple[str, float, float, float, bool]
+
+
+@dataclass(frozen=True)
+class _Turn:
+    """A pair that is looked at by turns with others."""
+
+    pair: _core.RankedPair
+    search: _core.LegalGraspSearch
 
 
 @dataclass
@@ -59,84 +67,108 @@ class Grasps:
         self._work, self._options, self._report = work, options, report
         self._seen = _Seen()
         self._narrow: dict[_core.PairChoice, list[_core.RankedPair]] = {}
-        self._passes = _passes(options)
+        self._denser = _denser_passes(options)
+        self._turns: deque[_Turn] = deque()
 
     def first(self) -> Iterator[Grasp]:
         """All pairs, two faces first; in denser passes as long as none could be approached."""
-        spared: list[_Pass] = []
-        for kind, denser in self._passes:
-            if denser is None:
-                ranking = _rank(self._work, self._options.ranking, kind)
-                _report_pairs(self._report, ranking, kind, self._options.ranking)
-                yield from self._legal(ranking.ranked, self._options.legality)
-            elif self._report.funnel.get("approached"):
-                spared.append((kind, denser))
-            else:
-                yield from self._legal(self._best(kind, denser), denser)
-        self._passes = spared
+        for kind in _kinds(self._options):
+            ranking = _rank(self._work, self._options.ranking, kind)
+            _report_pairs(self._report, ranking, kind, self._options.ranking)
+            yield from self._legal(ranking.ranked)
+            # Faces once more, before others are looked at.
+            if kind == _core.PairChoice.TwoFaces and self._denser and not self._approached():
+                self._begin(*self._denser.pop(0))
+                yield from self._by_turns(self._approached)
+        while self._denser and not self._approached():
+            kind, legality = self._denser.pop(0)
+            self._begin(kind, legality)
+            while self._denser and self._denser[0][1] is legality:
+                self._begin(*self._denser.pop(0))
+            yield from self._by_turns(self._approached)
 
     def rest(self) -> Iterator[Grasp]:
         """What the denser passes give that were spared, because a grasp could be approached."""
-        passes, self._passes = self._passes, []
-        for kind, denser in passes:
-            assert denser is not None
-            yield from self._legal(self._best(kind, denser), denser)
+        yield from self._by_turns(lambda: False)
+        while self._denser:
+            self._begin(*self._denser.pop(0))
+            yield from self._by_turns(lambda: False)
 
-    def _best(
-        self, kind: _core.PairChoice, denser: _core.LegalityOptions
-    ) -> list[_core.RankedPair]:
-        """The pairs that denser passes look at."""
+    def _approached(self) -> bool:
+        return bool(self._report.funnel.get("approached"))
+
+    def _begin(self, kind: _core.PairChoice, legality: _core.LegalityOptions) -> None:
+        """Look denser at the best pairs from now on."""
         if kind not in self._narrow:
             # The room that the fingers need when the jaws open as little as legality lets them.
             wanted = self._options.ranking
-            least = min(wanted.open_clearance, denser.open_clearance / 4)
+            least = min(wanted.open_clearance, legality.open_clearance / 4)
             self._narrow[kind] = _rank(self._work, wanted, kind, least).ranked[:DENSER_PAIRS]
-        return self._narrow[kind]
+        with self._work.clock("legal grasps"):
+            for pair in self._narrow[kind]:
+                search = _core.LegalGraspSearch(self._work.scene, self._work.solver, pair, legality)
+                self._turns.append(_Turn(pair, search))
 
-    def _legal(
-        self, ranked: list[_core.RankedPair], legality: _core.LegalityOptions
-    ) -> Iterator[Grasp]:
-        """Some poses of each pair, best pair first, then as many more; none twice."""
-        size = self._options.poses_per_round
+    def _by_turns(self, enough: Callable[[], bool]) -> Iterator[Grasp]:
+        """Go on with what was begun, some candidates of each pair in turn."""
+        while self._turns and not enough():
+            turn = self._turns.popleft()
+            with self._work.clock("legal grasps"):
+                found = turn.search.next(PORTION)
+            if turn.search.is_done:
+                self._tell(turn.pair, turn.search.result())
+            else:
+                self._turns.append(turn)
+            for aim in self._fresh(turn.pair, found):
+                yield turn.pair, aim
+
+    def _legal(self, ranked: list[_core.RankedPair]) -> Iterator[Grasp]:
+        """Some poses of each pair, best pair first, then as many more."""
+        work, size = self._work, self._options.poses_per_round
         legal: list[list[_core.GraspPose] | None] = [None] * len(ranked)
         start = 0
         while any(poses is None or start < len(poses) for poses in legal):
             for i, pair in enumerate(ranked):
                 if legal[i] is None:
-                    legal[i] = self._find(pair, legality)
+                    with work.clock("legal grasps"):
+                        found = _core.find_legal_grasps(
+                            work.scene, work.solver, pair, self._options.legality
+                        )
+                    legal[i] = self._fresh(pair, found.poses)
+                    self._tell(pair, found)
                 for aim in (legal[i] or [])[start : start + size]:
                     yield pair, aim
             start += size
 
-    def _find(
-        self, pair: _core.RankedPair, legality: _core.LegalityOptions
-    ) -> list[_core.GraspPose]:
-        """The legal poses of a pair that no pass before has found."""
-        work, seen, name = self._work, self._seen, str(pair.pair)
-        with work.clock("legal grasps"):
-            found = _core.find_legal_grasps(work.scene, work.solver, pair, legality)
-        fresh = [pose for pose in found.poses if _key(name, pose) not in seen.poses]
-        seen.poses.update(_key(name, pose) for pose in found.poses)
+    def _fresh(self, pair: _core.RankedPair, poses: list[_core.GraspPose]) -> list[_core.GraspPose]:
+        """Those that no pass before has found."""
+        known, name = self._seen.poses, str(pair.pair)
+        fresh = [pose for pose in poses if _key(name, pose) not in known]
+        known.update(_key(name, pose) for pose in poses)
         self._report.add("legal grasp poses", len(fresh))
-        if found.poses:
-            seen.tell(self._report, name, f"{name}: legal hand poses only in a denser pass")
-        else:
-            seen.tell(self._report, name, _illegal(pair, found), is_new=True)
         return fresh
 
+    def _tell(self, pair: _core.RankedPair, found: _core.LegalGrasps) -> None:
+        """What came of a pair, for the reasons."""
+        name = str(pair.pair)
+        if found.poses:
+            self._seen.tell(self._report, name, f"{name}: legal hand poses only in a denser pass")
+        else:
+            self._seen.tell(self._report, name, _illegal(pair, found), is_new=True)
 
-def _passes(options: PlanOptions) -> list[_Pass]:
-    """Two faces, once more denser; then other pairs; then the rest of the denser passes."""
-    faces, beyond = _core.PairChoice.TwoFaces, _core.PairChoice.BeyondFaces
-    looked_at = {faces, beyond}
-    if options.ranking.pairs in looked_at:
-        looked_at = {options.ranking.pairs}
+
+def _kinds(options: PlanOptions) -> list[_core.PairChoice]:
+    """The pairs that are looked at, two faces first."""
+    kinds = [_core.PairChoice.TwoFaces, _core.PairChoice.BeyondFaces]
     if not options.ranking.features.beyond_faces:
-        looked_at -= {beyond}
-    denser = options.denser
-    order: list[_Pass] = [(faces, None), *((faces, d) for d in denser[:1]), (beyond, None)]
-    order += [(faces, d) for d in denser[1:]] + [(beyond, d) for d in denser]
-    return [(kind, legality) for kind, legality in order if kind in looked_at]
+        kinds.pop()
+    return [kind for kind in kinds if options.ranking.pairs in (kind, _core.PairChoice.All)]
+
+
+def _denser_passes(
+    options: PlanOptions,
+) -> list[tuple[_core.PairChoice, _core.LegalityOptions]]:
+    return [(kind, legality) for legality in options.denser for kind in _kinds(options)]
 
 
 def _rank(

@@ -22,10 +22,12 @@ MOST_ITERATIONS = 2**31 - 1
 
 def _denser() -> tuple[_core.LegalityOptions, ...]:
     # Choice: 8 mm and 15 degrees, with half of the usual contact; then 6 mm and 5 degrees, with
-    # little more contact than a valid plan must have. Poses with more contact come first.
-    return (
-        _core.LegalityOptions(directions=24, spacing=0.008, least_contact_share=0.15),
-        _core.LegalityOptions(directions=72, spacing=0.006, least_contact_share=0.05),
+    # little more contact than a valid plan must have.
+    return tuple(
+        _core.LegalityOptions(
+            directions=directions, spacing=spacing, least_contact_share=share, spread=True
+        )
+        for directions, spacing, share in ((24, 0.008, 0.15), (72, 0.006, 0.05))
     )
 
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "obstruction.hpp"
 
@@ -104,6 +105,25 @@ bool is_blocked(const RankedPair& pair, const PlanarPose& pose, const FingerExte
   return pad_contact_area(pair.blocked, middle, footprint) > 1e-9;
 }
 
+// Mixes the candidates of a list that is sorted, those with blocked fingers still last: the
+// multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+void spread(std::vector<Candidate>& candidates) {
+  constexpr double kGolden = 0.6180339887498949;
+  const auto blocked = std::find_if(candidates.begin(), candidates.end(),
+                                    [](const Candidate& c) { return c.promise < 0.0; });
+  for (const auto& [first, last] :
+       {std::pair(candidates.begin(), blocked), std::pair(blocked, candidates.end())}) {
+    std::vector<std::pair<double, Candidate>> keyed;
+    double whole = 0.0;
+    for (auto it = first; it != last; ++it) {
+      keyed.emplace_back(std::modf(kGolden * static_cast<double>(it - first), &whole), *it);
+    }
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::transform(keyed.begin(), keyed.end(), first, [](const auto& k) { return k.second; });
+  }
+}
+
 }  // namespace
 
 ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
@@ -201,6 +221,7 @@ CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
   std::stable_sort(
       list.candidates.begin(), list.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.promise > b.promise + 1e-12; });
+  if (options.spread) spread(list.candidates);
   return list;
 }
 

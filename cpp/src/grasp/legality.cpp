@@ -2,8 +2,8 @@
 #include "handey/grasp/legality.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
-#include <sstream>
 
 #include "candidates.hpp"
 #include "pose_test.hpp"
@@ -83,6 +83,12 @@ std::string amount(const RankedPair& pair, double area) {
   }
 }
 
+std::vector<GraspPose> best_first(std::vector<GraspPose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const GraspPose& a, const GraspPose& b) { return a.merit > b.merit + 1e-9; });
+  return poses;
+}
+
 std::string too_little_contact(const RankedPair& pair, const grasp::ContactDemand& demand) {
   const std::string needed = amount(pair, demand.required), most = amount(pair, demand.best);
   switch (pair.pair.kind) {
@@ -102,53 +108,99 @@ std::string too_little_contact(const RankedPair& pair, const grasp::ContactDeman
 
 }  // namespace
 
-LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
-                              const RankedPair& pair, const LegalityOptions& options) {
-  require_valid_input(scene, pair, options);
-  const Gripper& gripper = scene.cell.robot->gripper;
-  const Eigen::Vector2d down = down_in_plane(scene, pair);
-  const grasp::ContactDemand demand = grasp::contact_demand(pair, gripper, options);
-  const grasp::Hold hold(part_of(scene), options);
-  const grasp::CandidateList list =
-      grasp::make_candidates(pair, *scene.cell.robot, down, demand, hold, options);
-
-  LegalGrasps result;
-  grasp::Tally tally;
-  // Contact and hold do not depend on the hand's half-turn.
-  result.too_little_contact = list.too_little_contact;
-  result.would_turn = list.would_turn;
-  result.tried = list.too_little_contact + list.would_turn;
-  for (int i = 0; i < list.too_little_contact; ++i) {
-    tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
-  }
-  for (int i = 0; i < list.would_turn; ++i) {
-    tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
-  }
-  grasp::PoseTester tester(scene, solver, options);
-  std::set<std::pair<int, bool>> found;
-  for (const grasp::Candidate& candidate : list.candidates) {
-    for (const bool flipped : {false, true}) {
-      if (static_cast<int>(result.poses.size()) >= options.most_poses) break;
-      // Legal already, less drawn back.
-      if (found.count({candidate.group, flipped}) != 0) continue;
-      GraspPose pose;
-      pose.in_plane = candidate.pose;
-      pose.flipped = flipped;
-      pose.contact_area = candidate.contact_area;
-      ++result.tried;
-      const grasp::PoseVerdict verdict = tester.test(pair.pair, pose, tally);
-      count(result, verdict);
-      if (verdict != grasp::PoseVerdict::Legal) continue;
-      pose.merit += grasp::planar_merit(pair, gripper, pose.in_plane, pose.contact_area,
-                                        candidate.along_edge, down, demand);
-      found.insert({candidate.group, flipped});
-      result.poses.push_back(std::move(pose));
+struct LegalGraspSearch::Impl {
+  Impl(const GraspScene& scene_in, const SphericalWristSolver& solver, const RankedPair& pair_in,
+       const LegalityOptions& options_in)
+      : scene(scene_in),
+        pair(pair_in),
+        options(options_in),
+        down(down_in_plane(scene, pair)),
+        demand(grasp::contact_demand(pair, scene.cell.robot->gripper, options)),
+        tester(scene, solver, options) {
+    const grasp::Hold hold(part_of(scene), options);
+    list = grasp::make_candidates(pair, *scene.cell.robot, down, demand, hold, options);
+    // Contact and hold do not depend on the hand's half-turn.
+    result.too_little_contact = list.too_little_contact;
+    result.would_turn = list.would_turn;
+    result.tried = list.too_little_contact + list.would_turn;
+    for (int i = 0; i < list.too_little_contact; ++i) {
+      tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
+    }
+    for (int i = 0; i < list.would_turn; ++i) {
+      tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
     }
   }
-  std::stable_sort(result.poses.begin(), result.poses.end(),
-                   [](const GraspPose& a, const GraspPose& b) { return a.merit > b.merit + 1e-9; });
-  result.worst_reason = tally.worst(result.tried);
+
+  bool is_done() const {
+    return at == list.candidates.size() ||
+           static_cast<int>(result.poses.size()) >= options.most_poses;
+  }
+
+  void test(const grasp::Candidate& candidate, bool flipped) {
+    if (static_cast<int>(result.poses.size()) >= options.most_poses) return;
+    // Legal already, less drawn back.
+    if (found.count({candidate.group, flipped}) != 0) return;
+    GraspPose pose;
+    pose.in_plane = candidate.pose;
+    pose.flipped = flipped;
+    pose.contact_area = candidate.contact_area;
+    ++result.tried;
+    const grasp::PoseVerdict verdict = tester.test(pair.pair, pose, tally);
+    count(result, verdict);
+    if (verdict != grasp::PoseVerdict::Legal) return;
+    pose.merit += grasp::planar_merit(pair, scene.cell.robot->gripper, pose.in_plane,
+                                      pose.contact_area, candidate.along_edge, down, demand);
+    found.insert({candidate.group, flipped});
+    result.poses.push_back(std::move(pose));
+  }
+
+  const GraspScene scene;
+  const RankedPair pair;
+  const LegalityOptions options;
+  const Eigen::Vector2d down;
+  const grasp::ContactDemand demand;
+  grasp::CandidateList list;
+  grasp::PoseTester tester;
+  grasp::Tally tally;
+  std::set<std::pair<int, bool>> found;
+  std::size_t at = 0;
+  LegalGrasps result;  ///< poses in the order found
+};
+
+LegalGraspSearch::LegalGraspSearch(const GraspScene& scene, const SphericalWristSolver& solver,
+                                   const RankedPair& pair, const LegalityOptions& options) {
+  require_valid_input(scene, pair, options);
+  impl_ = std::make_unique<Impl>(scene, solver, pair, options);
+}
+LegalGraspSearch::~LegalGraspSearch() = default;
+LegalGraspSearch::LegalGraspSearch(LegalGraspSearch&&) noexcept = default;
+LegalGraspSearch& LegalGraspSearch::operator=(LegalGraspSearch&&) noexcept = default;
+
+bool LegalGraspSearch::is_done() const { return impl_->is_done(); }
+
+std::vector<GraspPose> LegalGraspSearch::next(int candidates) {
+  grasp::require_in_range(candidates, 1, std::numeric_limits<int>::max(), "candidates");
+  const std::size_t known = impl_->result.poses.size();
+  for (int i = 0; i < candidates && !impl_->is_done(); ++i) {
+    const grasp::Candidate& candidate = impl_->list.candidates[impl_->at++];
+    for (const bool flipped : {false, true}) impl_->test(candidate, flipped);
+  }
+  const auto fresh = impl_->result.poses.begin() + static_cast<std::ptrdiff_t>(known);
+  return best_first({fresh, impl_->result.poses.end()});
+}
+
+LegalGrasps LegalGraspSearch::result() const {
+  LegalGrasps result = impl_->result;
+  result.poses = best_first(std::move(result.poses));
+  result.worst_reason = impl_->tally.worst(result.tried);
   return result;
+}
+
+LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
+                              const RankedPair& pair, const LegalityOptions& options) {
+  LegalGraspSearch search(scene, solver, pair, options);
+  search.next(std::numeric_limits<int>::max());
+  return search.result();
 }
 
 LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver& solver,

@@ -138,6 +138,53 @@ TEST(PieceDistance, AMeshThatIsNotConvexAgreesWithItsConvexParts) {
   EXPECT_GT(inside, 20);
 }
 
+/// Each triangle as four, so often.
+TriangleMesh subdivided(TriangleMesh mesh, int times) {
+  for (int i = 0; i < times; ++i) {
+    TriangleMesh finer;
+    for (const Eigen::Vector3i& t : mesh.triangles) {
+      const int first = static_cast<int>(finer.vertices.size());
+      for (int k = 0; k < 3; ++k) {
+        finer.vertices.push_back(mesh.vertices[static_cast<std::size_t>(t[k])]);
+      }
+      for (int k = 0; k < 3; ++k) {
+        finer.vertices.push_back(0.5 * (mesh.vertices[static_cast<std::size_t>(t[k])] +
+                                        mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])]));
+      }
+      for (const Eigen::Vector3i& part : {Eigen::Vector3i(0, 3, 5), Eigen::Vector3i(3, 1, 4),
+                                          Eigen::Vector3i(5, 4, 2), Eigen::Vector3i(3, 4, 5)}) {
+        finer.triangles.emplace_back(part.array() + first);
+      }
+    }
+    mesh = std::move(finer);
+  }
+  return mesh;
+}
+
+TEST(PieceDistance, OfAConvexPieceFromAFineMeshAgreesWithTheirTriangles) {
+  const auto l = piece_of(
+      MeshShape{std::make_shared<TriangleMesh>(subdivided(handey::testing::l_mesh(0.3, 0.1), 3))});
+  ASSERT_FALSE(l->convex);
+  Random random(6);
+  int apart = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const auto other = piece_of(Box{Eigen::Vector3d(
+        random.uniform(0.005, 0.1), random.uniform(0.005, 0.1), random.uniform(0.005, 0.3))});
+    const Pose X_WL = random.pose(0.25), X_WO = random.pose(0.25);
+    const double truth = triangle_distance(*l, X_WL, *other, X_WO);
+    const double answer = piece_distance(*other, X_WO, *l, X_WL, 0.0, 10.0);
+    if (answer > 0.0) {
+      ++apart;
+      ASSERT_NEAR(answer, truth, 2e-6 * truth + 1e-7) << i;
+    } else {
+      const bool inside = l->polyhedral().tree.contains(X_WL.inverse() * X_WO.translation());
+      ASSERT_TRUE(truth < 1e-7 || inside) << i;
+    }
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_LT(apart, 1450);
+}
+
 TEST(PieceDistance, AShortHorizonKeepsItsSideAndIsExactBelow) {
   const auto l =
       piece_of(MeshShape{std::make_shared<TriangleMesh>(handey::testing::l_mesh(0.3, 0.1))});

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "handey/errors.hpp"
 #include "handey/kinematics/urdf.hpp"
@@ -113,6 +117,60 @@ TEST(LegalGrasps, AreTheSameEveryTime) {
     EXPECT_EQ(a.poses[i].X_PH.matrix(), b.poses[i].X_PH.matrix());
     EXPECT_EQ(a.poses[i].q_pick, b.poses[i].q_pick);
   }
+}
+
+std::set<std::string> keys(const std::vector<GraspPose>& poses) {
+  std::set<std::string> keys;
+  for (const GraspPose& pose : poses) {
+    std::ostringstream key;
+    key << pose.in_plane.x << ' ' << pose.in_plane.y << ' ' << pose.in_plane.theta << ' '
+        << pose.flipped;
+    keys.insert(key.str());
+  }
+  return keys;
+}
+
+TEST(LegalGraspSearch, FindsInPortionsWhatIsFoundAtOnce) {
+  const GraspScene scene = make_scene(block_on_table(), translation(0.45, -0.25, 0.025));
+  const SphericalWristSolver solver(*puma());
+  const RankedPair pair = rank_grasps(scene.cell, 0, scene.X_WP_goal).ranked.at(0);
+  for (const bool spread : {false, true}) {
+    LegalityOptions options;
+    options.most_poses = 100000;
+    options.spread = spread;
+    LegalGraspSearch search(scene, solver, pair, options);
+    std::vector<GraspPose> found;
+    int portions = 0;
+    for (; !search.is_done(); ++portions) {
+      for (const GraspPose& pose : search.next(7)) found.push_back(pose);
+    }
+    const LegalGrasps at_once = find_legal_grasps(scene, solver, pair, options);
+    EXPECT_GT(portions, 5);
+    EXPECT_EQ(keys(found), keys(at_once.poses));
+    EXPECT_EQ(search.result().tried, at_once.tried);
+    EXPECT_EQ(search.result().worst_reason, at_once.worst_reason);
+  }
+}
+
+TEST(LegalGraspSearch, SpreadLooksAtUnpromisingCandidatesToo) {
+  const GraspScene scene = make_scene(block_on_table(), translation(0.45, -0.25, 0.025));
+  const SphericalWristSolver solver(*puma());
+  const RankedPair pair = rank_grasps(scene.cell, 0, scene.X_WP_goal).ranked.at(0);
+  LegalityOptions options;
+  options.most_poses = 100000;
+  const LegalGrasps all = find_legal_grasps(scene, solver, pair, options);
+  const auto worst_of_first = [&](bool spread) {
+    options.spread = spread;
+    LegalGraspSearch search(scene, solver, pair, options);
+    std::vector<GraspPose> found;
+    while (found.size() < all.poses.size() / 8) {
+      for (GraspPose& pose : search.next(1)) found.push_back(std::move(pose));
+    }
+    double worst = 1.0;
+    for (const GraspPose& pose : found) worst = std::min(worst, pose.merit);
+    return worst;
+  };
+  EXPECT_LT(worst_of_first(true), worst_of_first(false));
 }
 
 TEST(LegalGrasps, DrawThePadsBackWhereTheTipsWouldHitTheTable) {

@@ -44,6 +44,9 @@ struct LegalityOptions {
   /// part of 0.3 kg at friction 0.4 in such jaws.
   double grip_ratio = 20.0;
   int most_poses = 16;  ///< returned per pair; then the search stops
+  /// Candidates in an order spread over all of them, not the most promising first. Where few are
+  /// legal these are found sooner.
+  bool spread = false;
 };
 
 /// A grasp pose with all the configurations that are legal for it.
@@ -77,6 +80,30 @@ struct LegalGrasps {
 /// @throws InvalidInput (E_REF, E_RANGE, E_NUMBER, E_MISSING)
 LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
                               const RankedPair& pair, const LegalityOptions& options = {});
+
+/// The same in portions, for pairs that are to be looked at by turns.
+class LegalGraspSearch {
+ public:
+  /// @param solver  must outlive the search
+  /// @throws InvalidInput as find_legal_grasps
+  LegalGraspSearch(const GraspScene& scene, const SphericalWristSolver& solver,
+                   const RankedPair& pair, const LegalityOptions& options = {});
+  ~LegalGraspSearch();
+  LegalGraspSearch(LegalGraspSearch&&) noexcept;
+  LegalGraspSearch& operator=(LegalGraspSearch&&) noexcept;
+
+  /// No candidate is left, or enough are legal.
+  bool is_done() const;
+  /// Tests so many candidates more, at most, each with both half-turns of the hand.
+  /// @return the legal ones of these, best merit first
+  std::vector<GraspPose> next(int candidates);
+  /// What came of all candidates so far.
+  LegalGrasps result() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Is the hand pose `pose` of this pair legal at both ends? One pose in, at most one out.
 LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver& solver,
