@@ -318,6 +318,30 @@ def test_random_rearrangements_are_planned_and_valid(tmp_path, seed) -> None:
     assert all(carried.count(part) <= 2 for part in set(carried))
 
 
+def cycles(order: list[int]) -> int:
+    """Of a permutation, those of two and more."""
+    seen: set[int] = set()
+    count = 0
+    for start in range(len(order)):
+        length, at = 0, start
+        while at not in seen:
+            seen.add(at)
+            at, length = order[at], length + 1
+        count += length > 1
+    return count
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_permutation_takes_one_place_aside_for_each_cycle(tmp_path, seed) -> None:
+    spots = [(x, y, 0.02) for x in (0.42, 0.58) for y in (-0.2, 0.0, 0.2)][: 4 + seed % 2]
+    order = [int(i) for i in np.random.default_rng(seed).permutation(len(spots))]
+    parts = {f"p{i}": box([0.04, 0.05, 0.04], list(spot)) for i, spot in enumerate(spots)}
+    task = [goal(f"p{i}", spots[to]) for i, to in enumerate(order)]
+    _, carried = planned(write(tmp_path, parts, task, order="any"))
+    moved = sum(i != to for i, to in enumerate(order))
+    assert len(carried) == moved + cycles(order)
+
+
 def test_the_plan_of_a_goal_in_a_tray_stands_within_its_walls(tmp_path) -> None:
     path = CELLS / "on_table.yaml"
     result, carried = planned(path, tmp_path)

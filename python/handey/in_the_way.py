@@ -65,13 +65,17 @@ def _overlapping_parts(model: _core.CollisionModel, cell: _core.Cell, part: int)
     return found
 
 
-def carries(cell: _core.Cell, goal: Goal, other: int) -> bool:
+def carries(cell: _core.Cell, model: _core.CollisionModel, goal: Goal, other: int) -> bool:
     """Does the goal's part stand on another part, where it is or at its goal?"""
     part = cell.part_index(goal.part)
     poses = [cell.parts[part].X_WB]
     poses += [goal.X_WP] if isinstance(goal, PlaceAt) else []
     name = cell.parts[other].name
-    return any(name in examine_standing(cell, part, X_WP).on for X_WP in poses)
+    for X_WP in poses:
+        near = _core.touching_bodies(model, cell.with_part_at(part, X_WP), part, TOUCHING)
+        if name in examine_standing(cell, part, X_WP, near).on:
+            return True
+    return False
 
 
 def topmost(cell: _core.Cell, model: _core.CollisionModel, part: int) -> int:
@@ -103,12 +107,12 @@ def runs_into(
         return True
     # All other contacts are allowed: those were looked at when the carry was planned.
     allowance = _core.Allowance(closed_on=part, held_touches=_all_but(cell, other))
-    there = cell
+    standing = cell
     for motion in carry.motions:
+        there = cell.with_held(part, carry.X_HP) if motion.held else standing
         if motion.held:
-            there = cell.with_held(part, carry.X_HP)
-        elif there is not cell:
-            there = after
+            X_WP = _core.hand_in_world(cell, motion.path[-1].q) @ carry.X_HP
+            standing = cell.with_part_at(part, X_WP)  # once the hand lets it go
         checker = _core.CollisionChecker(model, there, allowance)
         hit = _core.certify_path(checker, motion.path).hit
         if hit is not None and name in (hit.a, hit.b):

@@ -168,7 +168,9 @@ class Mover:
         """
         goal, cell = self.cell_file.goals[index], state.cell
         absent = [
-            i for i in movers if cell.parts[i].name != goal.part and not carries(cell, goal, i)
+            i
+            for i in movers
+            if cell.parts[i].name != goal.part and not carries(cell, self.hands.model, goal, i)
         ]
         if not absent:
             return None

@@ -116,8 +116,10 @@ def carried_by(model: _core.CollisionModel, cell: _core.Cell, part: int) -> list
         if touched.kind != _core.BodyRef.Kind.Part:
             continue
         X_WO = cell.parts[touched.index].X_WB
-        before = stands_stably(cell, touched.index, X_WO)
-        if before and not stands_stably(without, touched.index, X_WO):
+        near = _core.touching_bodies(model, cell, touched.index, TOUCHING)
+        before = examine_standing(cell, touched.index, X_WO, near)
+        carried = cell.parts[part].name in before.on and before.stable
+        if carried and not examine_standing(without, touched.index, X_WO, near).stable:
             fallen.append(touched.index)
     return fallen
 
