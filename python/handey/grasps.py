@@ -26,12 +26,13 @@ PORTION = 200  # Choice: candidates of one pair tested before the next pair has 
 _PoseKey = tuple[str, float, float, float, bool]
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Turn:
-    """A pair that is looked at by turns with others."""
+    """A pair that is looked at by turns with others; its candidates are made when first asked."""
 
     pair: _core.RankedPair
-    search: _core.LegalGraspSearch
+    legality: _core.LegalityOptions
+    search: _core.LegalGraspSearch | None = None
 
 
 @dataclass
@@ -104,16 +105,17 @@ class Grasps:
             wanted = self._options.ranking
             least = min(wanted.open_clearance, legality.open_clearance / 4)
             self._narrow[kind] = _rank(self._work, wanted, kind, least).ranked[:DENSER_PAIRS]
-        with self._work.clock("legal grasps"):
-            for pair in self._narrow[kind]:
-                search = _core.LegalGraspSearch(self._work.scene, self._work.solver, pair, legality)
-                self._turns.append(_Turn(pair, search))
+        self._turns += [_Turn(pair, legality) for pair in self._narrow[kind]]
 
     def _by_turns(self, enough: Callable[[], bool]) -> Iterator[Grasp]:
         """Go on with what was begun, some candidates of each pair in turn."""
         while self._turns and not enough():
-            turn = self._turns.popleft()
-            with self._work.clock("legal grasps"):
+            turn, work = self._turns.popleft(), self._work
+            with work.clock("legal grasps"):
+                if turn.search is None:
+                    turn.search = _core.LegalGraspSearch(
+                        work.scene, work.solver, turn.pair, turn.legality
+                    )
                 found = turn.search.next(PORTION)
             if turn.search.is_done:
                 self._tell(turn.pair, turn.search.result())
