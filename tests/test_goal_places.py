@@ -176,6 +176,50 @@ def test_round_parts_keep_the_side_on_which_they_lie(tmp_path) -> None:
     assert result.plan is not None, "\n".join(result.report.reasons)
 
 
+def tray_mesh(path: Path, draft: float) -> None:
+    """A tray as one mesh, its walls leaning outwards by `draft` over their height."""
+    trimesh = pytest.importorskip("trimesh")
+
+    def ring(x: float, y: float, z: float) -> list[list[float]]:
+        return [[-x, -y, z], [x, -y, z], [x, y, z], [-x, y, z]]
+
+    rings = [
+        ring(0.09, 0.07, 0.0),
+        ring(0.09 + draft, 0.07 + draft, 0.04),
+        ring(0.08 + draft, 0.06 + draft, 0.04),
+        ring(0.08, 0.06, 0.006),
+    ]
+    corners = np.array([corner for one in rings for corner in one])
+    faces = [[0, 2, 1], [0, 3, 2], [12, 13, 14], [12, 14, 15]]
+    for level in range(3):
+        for i in range(4):
+            a, b = 4 * level + i, 4 * level + (i + 1) % 4
+            faces += [[a, b, b + 4], [a, b + 4, a + 4]]
+    mesh = trimesh.Trimesh(corners, faces, process=False)
+    assert mesh.is_watertight and mesh.volume > 0
+    mesh.export(path)
+
+
+@pytest.mark.parametrize("draft", [0.0, 0.015])
+def test_a_tray_may_be_a_mesh_with_leaning_walls(tmp_path, draft) -> None:
+    tray_mesh(tmp_path / "tray.stl", draft)
+    fixtures = {"tray": {"mesh": "tray.stl", "pose": AT}}
+    path = write(tmp_path, {"inside": "tray"}, fixtures)
+    judges = Judges(path)
+    random = np.random.default_rng(3)
+    for X_WP in judges.places(12):
+        assert judges.planner(X_WP) and judges.check(X_WP)
+        assert X_WP[2, 3] == pytest.approx(0.006 + np.abs(X_WP[2, :3]) @ [0.02, 0.03, 0.015])
+        moved = X_WP.copy()
+        moved[:2, 3] += random.uniform(-0.1, 0.1, 2)
+        if not _core.find_overlaps(judges.model, judges.cell.with_part_at(0, moved)):
+            assert judges.planner(moved) == judges.check(moved)
+    result = handey.plan(handey.load_cell(path))
+    assert result.plan is not None, "\n".join(result.report.reasons)
+    result.plan.save(tmp_path / "plan.json")
+    assert handey.check(path, tmp_path / "plan.json").ok
+
+
 @pytest.mark.parametrize(
     ("goal", "fixtures", "words"),
     [
