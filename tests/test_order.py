@@ -64,10 +64,10 @@ def test_a_stack_is_turned_over_on_its_spot_and_a_block_taken_out_from_under_ano
 ) -> None:
     result, carried = planned(CELLS / "restack.yaml", tmp_path)
     # On the same spot, all of the stack must be put aside before the first goal can be reached.
-    stack = [part for part in carried if part in ("red", "green", "blue")]
-    assert stack == ["blue", "green", "red", "blue", "green", "red"]
+    stack = [part for part in carried if part in ("alpha", "beta", "gamma")]
+    assert stack == ["gamma", "beta", "alpha", "gamma", "beta", "alpha"]
     assert carried.index("upper") < carried.index("lower")
-    assert result.report.goals[2].aside == ["blue", "green", "red"]
+    assert result.report.goals[2].aside == ["gamma", "beta", "alpha"]
     assert result.report.goals[3].aside == ["upper"]
 
 
