@@ -31,6 +31,8 @@ __all__: list[str] = [
     "ClearancePath",
     "CollisionChecker",
     "CollisionModel",
+    "CompatibleGrasp",
+    "CompatibleGrasps",
     "Configuration",
     "Cylinder",
     "DepartureOptions",
@@ -80,6 +82,7 @@ __all__: list[str] = [
     "PairChoice",
     "PairKind",
     "PartEdge",
+    "PartGrasps",
     "PartVertex",
     "PlanarArm",
     "PlanarFace",
@@ -141,6 +144,7 @@ __all__: list[str] = [
     "certify_edge",
     "certify_path",
     "clearance_path",
+    "clears_plane",
     "connected_components",
     "connected_parts",
     "contains_point",
@@ -150,6 +154,7 @@ __all__: list[str] = [
     "cross_section",
     "describe_scene",
     "explained_pixels",
+    "find_compatible_grasps",
     "find_feature_pairs",
     "find_legal_grasps",
     "find_overlaps",
@@ -190,10 +195,13 @@ __all__: list[str] = [
     "prove_layer",
     "quaternion_xyzw",
     "rank_grasps",
+    "rank_part_alone",
     "reach_ball",
+    "reach_margins",
     "resting_pose",
     "resting_poses",
     "robot_overlaps",
+    "sample_part_grasps",
     "search_free_space",
     "shorten_path",
     "slab_projection",
@@ -2356,6 +2364,73 @@ class LegalGraspSearch:
         No candidate is left, or enough are legal.
         """
 
+class PartGrasps:
+    """
+    Grasps of a part, wherever it stands.
+
+    Args:
+        rows: as the property, (n, 10).
+        X_PH: as the property, (n, 4, 4).
+    """
+    def __init__(self, *, rows: typing.Any, X_PH: typing.Any) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def X_PH(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Grasp frames in the part, (n, 4, 4).
+        """
+    @property
+    def rows(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Kind and index of the features a and b, x, y [m], theta [rad] in the grasp plane, flipped (0 or 1), width [m], merit (0..0.7): (n, 10).
+        """
+
+class CompatibleGrasp:
+    """
+    A grasp that is legal at a place.
+    """
+    @property
+    def grasp(self) -> int:
+        """
+        Index.
+        """
+    @property
+    def margin(self) -> float:
+        """
+        From joint limits and singularities, best configuration, 0..1.
+        """
+    @property
+    def opening(self) -> float:
+        """
+        The widest of those tried at which it is legal [m].
+        """
+    @property
+    def q(self) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
+        """
+        Legal configurations, best margin first: list of (dof,) [rad].
+        """
+
+class CompatibleGrasps:
+    """
+    The grasps that are legal at a place.
+    """
+    @property
+    def collides(self) -> int: ...
+    @property
+    def legal(self) -> list[CompatibleGrasp]:
+        """
+        CompatibleGrasp, by index.
+        """
+    @property
+    def tried(self) -> int: ...
+    @property
+    def unreachable(self) -> int: ...
+    @property
+    def worst_reason(self) -> str:
+        """
+        What was met most often: 'hand hits table: 14 of 48'; empty if nothing.
+        """
+
 class MotionGrid:
     """
     Filled cells of the grasp plane, one layer a gripper piece.
@@ -4451,6 +4526,131 @@ def find_legal_grasps(
 
     Raises:
         InvalidInput: for a scene with a part in the hand, an unknown part, bad options.
+    """
+
+def clears_plane(
+    robot: Robot, grasps: PartGrasps, X_SP: typing.Any, options: LegalityOptions = ...
+) -> numpy.typing.NDArray[numpy.bool]:
+    """
+    Which grasps keep the hand above the plane z = 0, with the part at X_SP.
+
+    Args:
+        robot: Robot.
+        grasps: PartGrasps.
+        X_SP: the part on the plane, (4, 4).
+        options: LegalityOptions.
+
+    Returns:
+        Array (n,) of bool.
+
+    Raises:
+        InvalidInput: for a bad pose.
+    """
+
+def find_compatible_grasps(
+    model: CollisionModel,
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    solver: SphericalWristSolver,
+    grasps: PartGrasps,
+    groups: collections.abc.Sequence[
+        collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]
+    ],
+    places: typing.Any,
+    *,
+    open_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.008,
+    clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0003,
+    configurations: typing.SupportsInt | typing.SupportsIndex = 2,
+    most: typing.SupportsInt | typing.SupportsIndex = 0,
+) -> list[CompatibleGrasps]:
+    """
+    Which grasps are legal with the part at some places: hand open and closing, arm, reach.
+
+    Args:
+        model: CollisionModel of the cell.
+        cell: Cell with an empty hand.
+        part: index in cell.parts.
+        solver: SphericalWristSolver of the cell's robot.
+        grasps: PartGrasps.
+        groups: lists of indices, each looked at in its order until `most` of it are legal.
+        places: the part in the world, (n, 4, 4).
+        open_clearance: of the open pads from the faces, each side; also half and a quarter of it [m].
+        clearance: of the whole robot [m].
+        configurations: of the arm, per grasp: the legal ones of best margin.
+        most: legal grasps per group at a place; 0 for all.
+
+    Returns:
+        List of CompatibleGrasps, one per place.
+
+    Raises:
+        InvalidInput: for a part in the hand, unknown indices, bad poses or numbers.
+    """
+
+def rank_part_alone(part: Body, robot: Robot, options: RankingOptions = ...) -> Ranking:
+    """
+    The feature pairs of a part that stands alone: obstructed by its own protrusions only.
+
+    Args:
+        part: Body.
+        robot: Robot.
+        options: RankingOptions.
+
+    Returns:
+        Ranking.
+
+    Raises:
+        InvalidInput: for a part without shapes, bad options.
+    """
+
+def reach_margins(
+    cell: Cell,
+    solver: SphericalWristSolver,
+    grasps: PartGrasps,
+    groups: collections.abc.Sequence[
+        collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]
+    ],
+    places: typing.Any,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    How well the arm reaches the best grasp of each group with the part at some places.
+
+    Args:
+        cell: Cell.
+        solver: SphericalWristSolver of the cell's robot.
+        grasps: PartGrasps.
+        groups: lists of indices.
+        places: the part in the world, (n, 4, 4).
+
+    Returns:
+        Joint margin 0..1, -1 where none is reached: (n, groups). Collision is not looked at.
+
+    Raises:
+        InvalidInput: for unknown indices or bad poses.
+    """
+
+def sample_part_grasps(
+    part: Body,
+    robot: Robot,
+    *,
+    ranking: RankingOptions = ...,
+    legality: LegalityOptions = ...,
+    most: typing.SupportsInt | typing.SupportsIndex = 6000,
+) -> PartGrasps:
+    """
+    Hand poses in the part frame that hold the part, with an eye on nothing but the part.
+
+    Args:
+        part: Body.
+        robot: Robot.
+        ranking: RankingOptions of its feature pairs.
+        legality: LegalityOptions; directions, spacing, contact, hold and clearances count.
+        most: grasps, shared evenly by pairs and directions.
+
+    Returns:
+        PartGrasps.
+
+    Raises:
+        InvalidInput: for a part without shapes, bad options.
     """
 
 def find_overlaps(

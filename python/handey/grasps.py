@@ -71,12 +71,18 @@ class Grasps:
         self._denser = _denser_passes(options)
         self._turns: deque[_Turn] = deque()
 
-    def first(self) -> Iterator[Grasp]:
-        """All pairs, two faces first; in denser passes as long as none could be approached."""
+    def first(self, elsewhere: Callable[[], bool] = lambda: False) -> Iterator[Grasp]:
+        """All pairs, two faces first; in denser passes as long as none could be approached.
+
+        Args:
+            elsewhere: asked where a first look finds no legal pose; the stream ends there if true.
+        """
         for kind in _kinds(self._options):
             ranking = _rank(self._work, self._options.ranking, kind)
             _report_pairs(self._report, ranking, kind, self._options.ranking)
             yield from self._legal(ranking.ranked)
+            if not self._report.funnel.get("legal grasp poses") and elsewhere():
+                return
             # Faces once more, before others are looked at.
             if kind == _core.PairChoice.TwoFaces and self._denser and not self._approached():
                 self._begin(*self._denser.pop(0))

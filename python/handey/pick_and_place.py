@@ -97,6 +97,7 @@ class Motion:
         held: the part is in the hand.
         search: how it was found, of gross motions.
         planner: what gave it, of motions near obstacles.
+        X_HP: the part in the grasp frame (4, 4), where it is not that of the whole carry.
     """
 
     action: str
@@ -104,6 +105,7 @@ class Motion:
     held: bool = False
     search: Search | None = None
     planner: str = ""
+    X_HP: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,7 @@ class Carry:
         motions: the whole of it when done.
         X_HP: the part in the grasp frame, shape (4, 4).
         end: where the arm is afterwards.
+        regrasps: times that the part is put down on the way and taken again.
     """
 
     stage: str
@@ -133,6 +136,7 @@ class Carry:
     X_HP: np.ndarray = field(default_factory=lambda: np.eye(4))
     grasp: _core.GraspPose | None = None
     end: _core.Configuration | None = None
+    regrasps: int = 0
 
 
 @dataclass

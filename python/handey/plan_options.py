@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from handey import _core
 from handey.errors import Fault, InvalidInput
 from handey.pick_and_place import DirectOptions
+from handey.regrasp_search import RegraspOptions
 
 __all__ = ["PlanOptions"]
 
@@ -48,6 +49,7 @@ class PlanOptions:
         most_by_arm: grasps for which, from the second round on, the whole arm is sampled near
             obstacles, where the local planners gave no way.
         thorough: the last round may take all the time that its gross motions want.
+        regrasp: budgets of step 7.
 
     Raises:
         TypeError: if a number is none.
@@ -64,6 +66,7 @@ class PlanOptions:
     sampling_rounds: tuple[int, ...] = (50, 150, 500, 4000)
     most_by_arm: int = 4
     thorough: bool = True
+    regrasp: RegraspOptions = field(default_factory=RegraspOptions)
 
     def __post_init__(self) -> None:
         _require_whole("seed", self.seed, 0, GREATEST_SEED)

@@ -1,7 +1,7 @@
 """The seven steps of the article as one loop: what to try next, and when to stop.
 
 Steps 1 to 3 rank the grasps from the part's geometry with an eye on the destination, step 4 brings
-the hand in, steps 5 and 6 are the gross motions; step 7, the regrasp, is not part of this version.
+the hand in, steps 5 and 6 are the gross motions, step 7 puts the part down and takes it again.
 Python decides what to try next; the compiled core answers whether it is possible, and how.
 Same input, version and seed: the same plan. Not guaranteed: completeness; the report says what was
 covered. Article: "Task-level planning of pick-and-place robot motions", Handey's planning steps.
@@ -26,14 +26,16 @@ from handey.moves import Hands
 from handey.order import plan_order
 from handey.pick_and_place import (
     Carry,
+    Motion,
     Workspace,
 )
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
+from handey.regrasp import Regrasp
 from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
 from handey.task import PlaceAt
-from handey.tries import Tries
+from handey.tries import Tries, planned
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 
@@ -138,7 +140,7 @@ def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
 def _plan_goal(
     work: Workspace, options: PlanOptions, report: GoalReport, stop_at: float | None
 ) -> Carry | None:
-    """Steps 1 to 6 for one goal: the first grasp that can be carried through."""
+    """Steps 1 to 7 for one goal: the first grasp that can be carried through, or several."""
     scene = work.scene
     unstable = _unstable(work)
     if unstable:
@@ -147,11 +149,17 @@ def _plan_goal(
         return None
     tries = Tries(work, report, options, stop_at)
     grasps = Grasps(work, options, report)
-    carry = tries.reach_any(grasps.first())
+    regrasp = Regrasp(work, options, lambda: respect(stop_at))
+    carry = tries.reach_any(grasps.first_look())
+    if carry is None and not report.funnel.get("legal grasp poses") and regrasp.is_needed():
+        carry = regrasp.run(0)
+    carry = carry or tries.reach_any(grasps.second_look()) or regrasp.run(0)
     for round_ in range(1, len(options.sampling_rounds)):
         carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
+        carry = carry or regrasp.run(round_)
+    regrasp.tell(report)
     if carry is not None:
-        return carry
+        return planned(report, regrasp.words, carry) if carry.regrasps else carry
     report.status = "failed"
     part = scene.cell.parts[scene.part]
     report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
@@ -183,6 +191,7 @@ def _take_over(
     report: Report,
 ) -> None:
     """Append the motions of a carry as timed steps; bring the world to where it then is."""
+    report.regrasps += carry.regrasps
     with clock("timing"):
         for motion in carry.motions:
             step = len(progress.steps)
@@ -197,7 +206,7 @@ def _take_over(
                     action=motion.action,
                     goal=index,
                     part=goal.part if motion.held else None,
-                    part_in_grasp_frame=carry.X_HP if motion.held else None,
+                    part_in_grasp_frame=_held_at(motion, carry),
                     time=progress.clock + np.array(timed.time),
                     positions=np.array([c.q for c in timed.configurations]),
                     opening=np.array([c.opening for c in timed.configurations]),
@@ -207,6 +216,12 @@ def _take_over(
     assert carry.end is not None
     progress.current = carry.end
     progress.cell = progress.cell.with_part_at(progress.cell.part_index(goal.part), goal.X_WP)
+
+
+def _held_at(motion: Motion, carry: Carry) -> np.ndarray | None:
+    if not motion.held:
+        return None
+    return carry.X_HP if motion.X_HP is None else motion.X_HP
 
 
 def _placements(progress: _Progress) -> dict[str, np.ndarray]:

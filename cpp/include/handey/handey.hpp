@@ -34,8 +34,10 @@
 #include "handey/collision/standing_places.hpp"
 // grasp
 #include "handey/grasp/backproject.hpp"
+#include "handey/grasp/compatibility.hpp"
 #include "handey/grasp/features.hpp"
 #include "handey/grasp/legality.hpp"
+#include "handey/grasp/part_grasps.hpp"
 #include "handey/grasp/ranking.hpp"
 #include "handey/grasp/target.hpp"
 // approach

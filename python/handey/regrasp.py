@@ -1,0 +1,152 @@
+"""Step 7: when no grasp serves both ends, the part is put down on the way and taken again.
+
+Asked for when a first look at the faces finds no grasp that is legal at both ends. A table of many
+more grasps, with edges and vertices, then tells whether any is: if so, the direct search goes on.
+If not, the search for sequences begins: fewest regrasps first, at each number with grasps on faces
+before the others.
+Not guaranteed: the number of regrasps is least over the grasps and places looked at. Article:
+"Regrasping".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from handey import _core
+from handey.budgets import with_budget
+from handey.grasp_table import GraspTable, GraspTableOptions, grasp_table, joined, with_pairs
+from handey.pick_and_place import Carry, Workspace
+from handey.plan_options import PlanOptions
+from handey.regrasp_search import RegraspSearch, clears_ground, compatible
+from handey.report import GoalReport
+
+__all__ = ["Regrasp"]
+
+# Choice: grasps of the tables: on faces, on faces more densely, with edges and vertices.
+MOST, MOST_DENSE, MOST_BEYOND = 6000, 8000, 4000
+# Where the options ask for no denser passes: 5 degrees and 8 mm.
+DENSE = _core.LegalityOptions(directions=72, spacing=0.008)
+# How far a carry got, for what is told of those that fell.
+STAGES = ("approach", "depart", "deposit", "withdraw", "transit", "transfer", "home", "done")
+
+
+@dataclass
+class Regrasp:
+    """Step 7 for one goal; its tables are read when they are asked for.
+
+    Attributes:
+        work: the goal, and where the arm is.
+        options: of planning.
+        respect: called between attempts; ends the search by an exception when time is up.
+        words: the sequence that was planned.
+    """
+
+    work: Workspace
+    options: PlanOptions
+    respect: Callable[[], None]
+    words: str = ""
+    _searches: dict[bool, RegraspSearch] = field(default_factory=dict)
+    _next: int = 0  # round that was not run yet
+
+    def is_needed(self) -> bool:
+        """Is there no grasp, of many, that is legal at both ends?"""
+        if not self.options.regrasp.most_regrasps:
+            return False
+        choice, kinds = self.options.ranking.pairs, _core.PairChoice
+        faces = choice != kinds.BeyondFaces and self._has_common(self._dense)
+        return not faces and not (choice != kinds.TwoFaces and self._has_common(self._beyond))
+
+    def run(self, round_: int) -> Carry | None:
+        """A carry with regrasps, planned with the budgets of a round, or None; once per round."""
+        if round_ < self._next:
+            return None
+        self._next = round_ + 1
+        direct = with_budget(self.options, round_)
+        for search in self._searches.values():
+            search.forgive()
+        for regrasps in range(1, self.options.regrasp.most_regrasps + 1):
+            for beyond in self._tiers:
+                carry = self._search(beyond).run(regrasps, direct)
+                if carry is not None:
+                    self.words = self._search(beyond).words
+                    return carry
+        return None
+
+    def tell(self, report: GoalReport) -> None:
+        """Add to the report what was looked at, if anything was."""
+        searches = list(self._searches.values())
+        if not searches:
+            return
+        # With edges and vertices all is looked at again: the last search tells of the most.
+        for what, count in searches[-1].told.funnel.items():
+            report.funnel[what] = report.funnel.get(what, 0) + count
+        for search in searches:
+            report.attempts += search.told.attempts
+        if not self.words:
+            report.reasons = [*self._best(), *searches[-1].told.reasons, *report.reasons]
+
+    def _best(self) -> list[str]:
+        """What the sequence that got farthest fell at."""
+        attempts = [a for search in self._searches.values() for a in search.told.attempts]
+        if attempts:
+            best = max(attempts, key=lambda attempt: STAGES.index(attempt.stage))
+            return [f"regrasping, {best.grasp}: fell at {best.stage}: {best.reason}"]
+        last = list(self._searches.values())[-1]
+        if not last.joins_ends:
+            return []
+        most = self.options.regrasp.most_regrasps
+        return [f"no place on the way joins the grasps of both ends by up to {most} regrasps"]
+
+    @property
+    def _tiers(self) -> tuple[bool, ...]:
+        """Without and with edges and vertices, as the options allow."""
+        choice, kinds = self.options.ranking.pairs, _core.PairChoice
+        return {kinds.TwoFaces: (False,), kinds.BeyondFaces: (True,)}.get(choice, (False, True))
+
+    def _search(self, beyond: bool) -> RegraspSearch:
+        if beyond not in self._searches:
+            if self.options.ranking.pairs == _core.PairChoice.BeyondFaces:
+                table = self._beyond
+            else:
+                table = joined(self._faces, self._beyond) if beyond else self._faces
+            self._searches[beyond] = RegraspSearch(
+                self.work, table, self.options.regrasp, self.options.seed, self.respect
+            )
+        return self._searches[beyond]
+
+    def _has_common(self, table: GraspTable) -> bool:
+        """Is a grasp of the table legal at both ends?"""
+        scene = self.work.scene
+        ends = [scene.cell.parts[scene.part].X_WB, scene.X_WP_goal]
+        with self.work.clock("regrasp"):
+            clear = np.all([clears_ground(self.work, table, X_WP) for X_WP in ends], axis=0)
+            group = np.flatnonzero(clear).tolist()
+            for most, X_WP in zip((0, 1), ends, strict=True):
+                found = compatible(self.work, table, [group], X_WP[None], most)[0]
+                group = [item.grasp for item in found.legal]
+        return bool(group)
+
+    @cached_property
+    def _faces(self) -> GraspTable:
+        return self._table(_core.PairChoice.TwoFaces, self.options.legality, MOST)
+
+    @cached_property
+    def _dense(self) -> GraspTable:
+        dense = self.options.denser[0] if self.options.denser else DENSE
+        return self._table(_core.PairChoice.TwoFaces, dense, MOST_DENSE)
+
+    @cached_property
+    def _beyond(self) -> GraspTable:
+        return self._table(_core.PairChoice.BeyondFaces, self.options.legality, MOST_BEYOND)
+
+    def _table(
+        self, pairs: _core.PairChoice, legality: _core.LegalityOptions, most: int
+    ) -> GraspTable:
+        cell = self.work.scene.cell
+        options = GraspTableOptions(with_pairs(self.options.ranking, pairs), legality, most)
+        with self.work.clock("grasp table"):
+            return grasp_table(cell.parts[self.work.scene.part], cell.robot, options)
