@@ -30,6 +30,7 @@ __all__ = ["Regrasp"]
 MOST, MOST_DENSE, MOST_BEYOND = 6000, 8000, 4000
 # Where the options ask for no denser passes: 5 degrees and 8 mm.
 DENSE = _core.LegalityOptions(directions=72, spacing=0.008)
+TRIED = ("placements looked at", "regrasp sequences tried", "approached")  # counts of all searches
 # How far a carry got, for what is told of those that fell.
 STAGES = ("approach", "depart", "deposit", "withdraw", "transit", "transfer", "home", "done")
 
@@ -68,11 +69,16 @@ class Regrasp:
         direct = with_budget(self.options, round_)
         for search in self._searches.values():
             search.forgive()
+        sequences = self.options.regrasp.sequences
+        left = sequences[min(round_, len(sequences) - 1)]
         for regrasps in range(1, self.options.regrasp.most_regrasps + 1):
             for beyond in self._tiers:
-                carry = self._search(beyond).run(regrasps, direct)
+                search = self._search(beyond)
+                before = search.tried
+                carry = search.run(regrasps, direct, left)
+                left -= search.tried - before
                 if carry is not None:
-                    self.words = self._search(beyond).words
+                    self.words = search.words
                     return carry
         return None
 
@@ -81,8 +87,13 @@ class Regrasp:
         searches = list(self._searches.values())
         if not searches:
             return
-        # With edges and vertices all is looked at again: the last search tells of the most.
-        for what, count in searches[-1].told.funnel.items():
+        # With edges and vertices all grasps are looked at again: the last search tells of the most.
+        told: dict[str, int] = {}
+        for search in searches:
+            tried = {what: told.get(what, 0) for what in TRIED}
+            told |= search.told.funnel
+            told |= {what: n + search.told.funnel.get(what, 0) for what, n in tried.items()}
+        for what, count in told.items():
             report.funnel[what] = report.funnel.get(what, 0) + count
         for search in searches:
             report.attempts += search.told.attempts

@@ -16,6 +16,7 @@ import numpy as np
 
 __all__ = ["Graph", "Hop", "Place"]
 
+DISCOURAGED = 1.5  # Choice: what a node likely to be refused costs more [s]
 ORIGIN, DESTINATION = 0, 1  # indices of the first two places
 
 
@@ -95,6 +96,12 @@ class Graph:
         """There is no way to carry the part from one place to the other."""
         self.refused.add(("transfer", origin, grasp, target))
         self._transfers.pop((origin, target), None)
+
+    def discourage(self, place: int, grasps: np.ndarray) -> None:
+        """What is like a grasp that was refused there costs more."""
+        node = self.places[place]
+        node.charge[np.isin(node.grasps, grasps)] += DISCOURAGED
+        self._transits.pop(place, None)
 
     def forgive(self) -> None:
         """Nothing is refused any more."""

@@ -31,6 +31,7 @@ from handey.report import Attempt
 
 __all__ = ["RegraspOptions", "RegraspSearch", "Told", "clears_ground", "compatible"]
 
+ALIKE = 0.9  # Choice: cosine between the directions of two hands that count as alike
 # Choice: the hand is within so far of the part, level; a face wider than that all round is a plane
 # that the hand cannot get below [m].
 HAND_REACH = 0.35
@@ -45,14 +46,15 @@ class RegraspOptions:
         samples: places looked at for each resting pose on each support, pass after pass.
         places: the best of these that are kept for each resting pose, pass after pass.
         grasps: legal grasps of each group wanted at a place (one put-down on the way).
-        sequences: whose motions are planned, in each pass.
+        sequences: whose motions are planned: in the first round of attempts, which is cheap, and in
+            each further one.
     """
 
     most_regrasps: int = 4
     samples: tuple[int, ...] = (48, 256)
     places: tuple[int, ...] = (3, 8)
     grasps: int = 12
-    sequences: int = 40
+    sequences: tuple[int, ...] = (40, 8, 4)
 
 
 @dataclass
@@ -104,6 +106,7 @@ class RegraspSearch:
     pairs: dict[tuple[float, ...], _core.RankedPair] = field(default_factory=dict)
     looked: set[tuple[bool, int]] = field(default_factory=set)
     words: str = ""
+    tried: int = 0
     told: Told = field(default_factory=lambda: Told())
 
     def __post_init__(self) -> None:
@@ -145,8 +148,12 @@ class RegraspSearch:
         self.reaches = {key: it for key, it in self.reaches.items() if isinstance(it, Reach)}
         self.graph.forgive()
 
-    def run(self, regrasps: int, direct: DirectOptions) -> Carry | None:
-        """A sequence with so many regrasps, planned with these budgets; None if there is none."""
+    def run(self, regrasps: int, direct: DirectOptions, most: int) -> Carry | None:
+        """A sequence with so many regrasps, planned with these budgets; None if there is none.
+
+        The motions of at most `most` sequences are planned.
+        """
+        stop_at = self.tried + most
         if not self.joins_ends:
             self._tell_illegal_ends()
             return None
@@ -157,8 +164,10 @@ class RegraspSearch:
         if not needs:
             return None
         for level in range(len(self.options.samples)):
+            if self.tried >= stop_at:
+                break
             self.add_places(needs, regrasps, level)
-            carry = self.try_sequences(regrasps, direct)
+            carry = self.try_sequences(regrasps, direct, stop_at)
             if carry is not None:
                 return carry
         return None
@@ -212,14 +221,15 @@ class RegraspSearch:
                     else:
                         self.told.reason(f"{name}: {found.worst_reason or 'out of reach'}")
 
-    def try_sequences(self, regrasps: int, direct: DirectOptions) -> Carry | None:
+    def try_sequences(self, regrasps: int, direct: DirectOptions, stop_at: int) -> Carry | None:
         """Plan the cheapest sequences, one after the other."""
-        for _ in range(self.options.sequences):
+        while self.tried < stop_at:
             self.respect()
             with self.work.clock("regrasp"):
                 hops = self.graph.cheapest(regrasps)
             if hops is None:
                 return None
+            self.tried += 1
             self.told.count("regrasp sequences tried")
             carry = self.plan(hops, direct)
             if carry is not None:
@@ -293,14 +303,23 @@ class RegraspSearch:
         """Take out of the graph what the planners of a motion refused."""
         if carry.stage in ("approach", "depart"):
             self.graph.refuse_pick(hop.origin, hop.grasp)
+            self.graph.discourage(hop.origin, self.alike(hop.grasp))
         elif carry.stage in ("deposit", "withdraw", "home"):
             self.graph.refuse_put(hop.target, hop.grasp)
+            self.graph.discourage(hop.target, self.alike(hop.grasp))
         elif carry.stage == "transit":
             grasp = -1 if before is None else before.grasp
             self.graph.refuse_transit(hop.origin, grasp, hop.grasp)
         else:
             self.graph.refuse_transfer(hop.origin, hop.grasp, hop.target)
         self.told.attempts.append(Attempt(self.describe(hop), carry.stage, carry.reason))
+
+    def alike(self, grasp: int) -> np.ndarray:
+        """Grasps on the same features from about the same side, which are likely to fail too."""
+        rows = self.table.rows
+        same = np.all(rows[:, :4] == rows[grasp, :4], axis=1)
+        turned = np.cos(rows[:, 6] - rows[grasp, 6])
+        return np.flatnonzero(same & (turned > ALIKE))
 
     def describe(self, hop: Hop) -> str:
         """A carry in words."""
