@@ -28,7 +28,7 @@ from handey.task import PlaceAt
 __all__ = ["Hands", "Move", "Mover", "State"]
 
 MOST_TRIES = 60  # Choice: goals and parts moved aside tried in one pass of the search
-MOST_PLACES = (12, 4)  # Choice: of an open goal tried with little effort, and with all of it
+MOST_PLACES = (12, 6, 4)  # Choice: of an open goal tried with little effort, and with more
 MOST_PLACES_ASIDE = 8  # Choice: of a part moved aside, tried before another part is
 WAYS_ON = 2  # Choice: placements of one part from which the search goes on
 # Choice: between a part moved aside and where others go: first room for the jaws, then any [m].
@@ -106,7 +106,7 @@ class Mover:
     """Plans moves, and counts how many were tried.
 
     Attributes:
-        effort: 0 little, 1 all that the options allow.
+        effort: 0 little, 1 with regrasps, 2 all that the options allow.
         tries: in this pass.
     """
 
@@ -312,12 +312,15 @@ class Mover:
 
     def _options(self) -> PlanOptions:
         """Of one try: with little effort, one pass over the grasps."""
-        if self.effort:
+        if self.effort == 2:
             return self.options
         rounds = self.options.sampling_rounds[:2]
-        return replace(
+        little = replace(
             self.options, denser=(), sampling_rounds=rounds, most_by_arm=0, thorough=False
         )
+        # Another order or another place may spare the regrasp.
+        forbidden = replace(self.options.regrasp, most_regrasps=0)
+        return little if self.effort else replace(little, regrasp=forbidden)
 
 
 def _under(X_WP: np.ndarray) -> np.ndarray:

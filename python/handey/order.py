@@ -72,7 +72,7 @@ class _Search:
 
     def run(self) -> State | None:
         start = State(self.cell_file.cell, self.cell_file.cell.start)
-        for effort in (0, 1) if self._has_choice() else (1,):
+        for effort in (0, 1, 2) if self._has_choice() else (2,):
             self.mover.begin(effort)
             self.dead.clear()
             self.hopeless.clear()
