@@ -147,13 +147,15 @@ def test_figure_1_is_put_down_once_and_the_first_grasp_is_forbidden_at_the_goal(
 
 
 def test_random_cells_of_every_kind_are_planned_and_valid(tmp_path: Path) -> None:
+    regrasps = 0
     for path in regrasp_cells.regrasp_cells(5, 4, tmp_path):
         outcome = regrasp_cells.run_one(path)
         if not outcome.planned:
             assert exhaustive_regrasps.least(path, seconds=5.0) < 0, str(outcome)
             continue
         assert outcome.valid, str(outcome)
-        assert outcome.regrasps >= 1
+        regrasps += outcome.regrasps
+    assert regrasps >= 2
 
 
 # The table on disk.

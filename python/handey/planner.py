@@ -150,10 +150,7 @@ def _plan_goal(
     tries = Tries(work, report, options, stop_at)
     grasps = Grasps(work, options, report)
     regrasp = Regrasp(work, options, lambda: respect(stop_at))
-    carry = tries.reach_any(grasps.first_look())
-    if carry is None and not report.funnel.get("legal grasp poses") and regrasp.is_needed():
-        carry = regrasp.run(0)
-    carry = carry or tries.reach_any(grasps.second_look()) or regrasp.run(0)
+    carry = tries.reach_any(grasps.first(elsewhere=regrasp.is_needed)) or regrasp.run(0)
     for round_ in range(1, len(options.sampling_rounds)):
         carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
         carry = carry or regrasp.run(round_)

@@ -51,12 +51,16 @@ class Regrasp:
     respect: Callable[[], None]
     words: str = ""
     _searches: dict[bool, RegraspSearch] = field(default_factory=dict)
+    _needed: bool | None = None
     _next: int = 0  # round that was not run yet
 
     def is_needed(self) -> bool:
         """Is there no grasp, of many, that is legal at both ends?"""
-        if not self.options.regrasp.most_regrasps:
-            return False
+        if self._needed is None:
+            self._needed = bool(self.options.regrasp.most_regrasps) and self._find_need()
+        return self._needed
+
+    def _find_need(self) -> bool:
         choice, kinds = self.options.ranking.pairs, _core.PairChoice
         faces = choice != kinds.BeyondFaces and self._has_common(self._dense)
         return not faces and not (choice != kinds.TwoFaces and self._has_common(self._beyond))
