@@ -2,7 +2,7 @@
 
 A part stands on a table and is to stand on it on another side: upside down, up on its end, laid on
 a side, or so in a slot between two walls. 0 to 4 other bodies stand about. Only cells count for
-which no grasp of a coarse search is legal at both ends. Whether there is a way is not asked;
+which no grasp of a dense search is legal at both ends. Whether there is a way is not asked;
 `--search` looks for the least number of regrasps by brute force over a lattice of places.
 
     python tests/regrasp_cells.py --count 40 --seed 1
@@ -29,6 +29,7 @@ from handey import _core
 
 # No grasp of the wedge on a slope serves it on an end: no regrasp turns it there.
 PARTS = [name for name in OWN_PARTS if name != "wedge"]
+DENSE = _core.LegalityOptions(directions=72, spacing=0.008)
 KINDS = ("upside down", "stand up", "lay on a side", "slot")
 
 
@@ -163,7 +164,7 @@ def add_slot(
 
 
 def is_direct(path: Path) -> bool:
-    """Is some grasp of a coarse search legal at both ends?"""
+    """Is some grasp legal at both ends, of a coarse search or of a dense one?"""
     loaded = handey.load_cell(path)
     goal = loaded.goals[0]
     part = loaded.cell.part_index(goal.part)
@@ -171,7 +172,11 @@ def is_direct(path: Path) -> bool:
     model = _core.make_collision_model(loaded.cell)
     scene = _core.GraspScene(model=model, cell=loaded.cell, part=part, X_WP_goal=goal.X_WP)
     ranking = _core.rank_grasps(loaded.cell, part, goal.X_WP)
-    return any(_core.find_legal_grasps(scene, solver, pair).poses for pair in ranking.ranked)
+    return any(
+        _core.find_legal_grasps(scene, solver, pair, legality).poses
+        for legality in (_core.LegalityOptions(), DENSE)
+        for pair in ranking.ranked
+    )
 
 
 def regrasp_cells(seed: int, count: int, folder: Path) -> Iterator[Path]:
