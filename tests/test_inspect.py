@@ -245,11 +245,53 @@ def test_a_urdf_alone_tells_what_was_taken_for_what(capsys, tmp_path):
     assert (status, err) == (0, "")
     assert [joint["name"] for joint in summary["joints"]] == [f"joint{i}" for i in range(1, 7)]
     assert "no robot file" in summary["warnings"][0]
+    assert summary["jaws"]["opening_m"] == [0.0, 0.1]
     bare = tmp_path / "bare.urdf"
     bare.write_text('<robot name="r"><link name="a"/></robot>')
     status, out, err = run(capsys, bare)
     assert (status, out) == (2, "")
-    assert err.startswith(f"handey: {bare}: found 0 prismatic joints, expected two fingers")
+    assert err.startswith(f"handey: {bare}: found no single longest chain of revolute joints")
+
+
+def test_a_urdf_without_fingers_tells_the_kinematics(capsys, tmp_path, robot):
+    text = (ROBOT.parent / "puma560.urdf").read_text()
+    for finger in ("left_finger", "right_finger"):
+        text = re.sub(rf'<joint name="{finger}_joint".*?</joint>', "", text, flags=re.S)
+        text = re.sub(rf'<link name="{finger}">.*?</link>', "", text, flags=re.S)
+    (tmp_path / "arm.urdf").write_text(text)  # its meshes are not there: shapes are not read
+    status, out, err = run(capsys, tmp_path / "arm.urdf", "--json")
+    summary = json.loads(out)
+    assert (status, err) == (0, "")
+    assert [joint["name"] for joint in summary["joints"]] == [f"joint{i}" for i in range(1, 7)]
+    lower = [joint["lower_rad"] for joint in summary["joints"]]
+    assert lower == pytest.approx([joint.limit.lower for joint in robot.joints])
+    assert not any("made_up" in name for name in summary["bodies"])
+    assert summary["jaws"] is None and "shapes are not looked at" in summary["warnings"][0]
+    assert summary["inverse_kinematics"]["supported"] and len(summary["reach"]["rows"]) >= 4
+    assert "jaws      none" in run(capsys, tmp_path / "arm.urdf", "-o", tmp_path / "a.html")[1]
+    sticks = scene_of(tmp_path / "a.html")["sticks"]
+    assert len(sticks) == 7 and len(sticks[0]) == 8
+    (tmp_path / "slow.urdf").write_text(re.sub(r'velocity="[^"]*"', 'velocity="0"', text))
+    status, out, err = run(capsys, tmp_path / "slow.urdf")
+    assert (status, out) == (2, "")
+    assert err.splitlines()[0].startswith(f"handey: {tmp_path / 'slow.urdf'}: joint 'joint1': the")
+    (tmp_path / "no.urdf").write_text("<robot")
+    assert run(capsys, tmp_path / "no.urdf")[0] == 2
+    assert run(capsys, tmp_path / "none.urdf")[0] == 2
+
+
+def test_verbose_leaves_nothing_out(capsys):
+    cell = CELLS / "restack.yaml"
+    short, long = (run(capsys, cell, *more)[1].splitlines() for more in ((), ("--verbose",)))
+    assert len(short) <= 40 < len(long)
+    assert sum("ways, when it falls" in line for line in long) == 5
+    robot_lines_ = run(capsys, ROBOT, "--verbose")[1]
+    assert "base_link/link1" in robot_lines_
+
+
+def test_a_cell_that_cannot_be_is_bad_input(capsys):
+    status, out, err = run(capsys, CELLS / "bad_start_in_solid.yaml")
+    assert (status, out) == (2, "") and "overlap at the start by 80.0 mm" in err
 
 
 # -------------------------------------------------------------------------------------------- cell
@@ -269,7 +311,8 @@ def test_a_cell_tells_what_stands_on_what_and_what_can_be_held(demo):
     ("cell", "verdicts"),
     [
         ("impossible_out_of_reach", ["no grasp found there"]),
-        ("impossible_too_wide", ["no grasp found there"]),
+        ("impossible_too_wide", ["no grasp found where it stands"]),
+        ("impossible_closed_box", ["no grasp found where it stands"]),
         ("already_met", ["met already"]),
         ("on_table", ["within reach", "within reach"]),
     ],
@@ -520,7 +563,11 @@ def test_the_pages_of_robot_and_cell_are_drawn(browser, robot, demo, tmp_path):
     assert colours(before) > 40
     choose(browser, "[data-show='body:hex_peg']")
     assert browser.find_element("id", "shown").text == "hex_peg"
-    assert (pixels(browser) != before).any(axis=1).mean() > 0.01
+    after = pixels(browser)
+    assert (after != before).any(axis=1).mean() > 0.01
+    choose(browser, "[data-show='goal:0']")
+    assert browser.find_element("id", "shown").text == f"goal 0: {demo.goals[0].goal}"
+    assert (pixels(browser) != after).any(axis=1).mean() > 0.0005
     assert severe(browser) == []
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from handey.commands import OK, keep_inputs
 from handey.errors import Fault, InvalidInput
-from handey.terminal import tell
+from handey.terminal import tell, warn
 
 if TYPE_CHECKING:
     from handey import _core
@@ -78,8 +78,8 @@ def _report(
         from handey.inspection.bare_urdf import load_bare_urdf
         from handey.inspection.robot import inspect_robot
 
-        robot, said = load_bare_urdf(file)
-        return inspect_robot(robot, said, picture=options.output is not None)
+        bare = load_bare_urdf(file)
+        return inspect_robot(bare.robot, bare.warnings, options.output is not None, bare.has_jaws)
     from handey.cell_file import load_cell
 
     cell = load_cell(file)
@@ -109,7 +109,9 @@ def _robot(options: argparse.Namespace) -> _core.Robot | None:
         return None
     from handey.robot_file import load_robot
 
-    return load_robot(options.robot)[0]
+    robot, said = load_robot(options.robot)
+    warn(options, said)
+    return robot
 
 
 def _refuse(wrong: bool, place: str, message: str, file: str) -> None:

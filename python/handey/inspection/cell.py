@@ -90,6 +90,7 @@ class GoalFigures:
         why_none: why there is no placement.
         there: hand poses at the best of them; None where the kinematics is not supported.
         both: hand poses that are legal where the part is and there.
+        here: hand poses where the part is before; looked at where `both` has none.
     """
 
     goal: Goal
@@ -98,6 +99,7 @@ class GoalFigures:
     why_none: str
     there: Held | None
     both: Held | None
+    here: Held | None = None
 
     @property
     def verdict(self) -> str:
@@ -110,6 +112,8 @@ class GoalFigures:
             return "not known"
         if self.both.legal:
             return "within reach"
+        if self.here is not None and not self.here.legal:
+            return "no grasp found where it stands"
         return "by a regrasp at best" if self.there.legal else "no grasp found there"
 
     def as_dict(self) -> dict[str, Any]:
@@ -123,6 +127,7 @@ class GoalFigures:
             "why_no_placement": self.why_none,
             "grasps_there": _held_dict(self.there),
             "grasps_at_both_ends": _held_dict(self.both),
+            "grasps_where_it_stands": _held_dict(self.here),
         }
 
 
@@ -347,13 +352,19 @@ def _goal(
         at_both = Held(0, 0, "no grasp is legal there")
         if at_goal.legal:
             at_both = _held(cell, model, solver, part, X_WP, _rank(cell, part, X_WP, True))
+        if at_both.legal > at_goal.legal:  # other targets were tried; what holds both holds there
+            at_goal = Held(at_both.legal, max(at_goal.tried, at_both.tried), at_goal.reason)
         found.append((at_goal, at_both, there))
         if at_both.legal:
             break
     if not found:
         return GoalFigures(goal, False, 0, sought.reason(), None, None), cell
     at_goal, at_both, there = max(found, key=lambda f: (f[1].legal, f[0].legal))
-    return GoalFigures(goal, False, len(found), "", at_goal, at_both), there
+    here = None
+    if not at_both.legal:
+        X_WP = np.asarray(cell.parts[part].X_WB)
+        here = _held(cell, model, solver, part, X_WP, _rank(cell, part, X_WP, False))
+    return GoalFigures(goal, False, len(found), "", at_goal, at_both, here), there
 
 
 def _supports(cell: _core.Cell) -> tuple[tuple[str, tuple[_core.SupportFace, ...]], ...]:

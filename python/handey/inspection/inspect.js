@@ -73,7 +73,8 @@
     return { b, count: numbers.length / 9 };
   };
   const drop = (b) => gl.deleteBuffer(b.b);
-  // A picture is { faces, lines, marks } of buffers with nine numbers a point: place, normal, colour.
+  // A picture is { faces, lines, marks, seen, over } of buffers with nine numbers a point: place, normal, colour.
+  // Marks are thick lines; what is seen or over is not hidden by anything, thin and thick.
   const render = (canvas, picture, camera) => {
     if (!gl) return;
     const ratio = Math.min(devicePixelRatio || 1, 2);
@@ -101,6 +102,7 @@
     draw(picture.lines, gl.LINES, 2e-4, [0, 0]);
     thick(picture.marks, 6e-4, Math.round(ratio));
     gl.disable(gl.DEPTH_TEST);
+    draw(picture.seen, gl.LINES, 0, [0, 0]);
     thick(picture.over, 0, Math.round(ratio));
     canvas.getContext("2d").drawImage(glass, 0, 0);
   };
@@ -136,7 +138,7 @@
     return [[from, to], [add(back, side, 0.16 * length), to, add(back, side, -0.16 * length)]];
   };
   const build = (choice) => {
-    const faces = [], lines = [], marks = [], over = [];
+    const faces = [], lines = [], marks = [], seen = [], over = [];
     const pose = choice.rest ? choice.rest.pose : IDENTITY;
     for (const body of scene.bodies) {
       let colour = rgb(body.colour);
@@ -161,10 +163,29 @@
       for (const i of [0, 1, 2, 0, 2, 3]) put(faces, corners[i], [0, 0, 1], rgb("#e4ddd0"));
       strokes(over, [choice.rest.foot], A);
     }
+    for (const goal of scene.goals || []) {
+      const chosen = choice.goal === goal.goal;
+      strokes(lines, goal.lines, rgb(goal.colour));
+      if (chosen) strokes(seen, goal.lines, HOLE);
+    }
+    strokes(marks, scene.sticks || [], B);
     strokes(over, scene.holes || [], HOLE);
-    return Object.fromEntries(Object.entries({ faces, lines, marks, over }).map(([k, v]) => [k, buffer(new Float32Array(v))]));
+    return Object.fromEntries(Object.entries({ faces, lines, marks, seen, over }).map(([k, v]) => [k, buffer(new Float32Array(v))]));
   };
   const start = () => ({ turn: scene.turn, tilt: 0.45, distance: scene.radius / Math.sin(FOV / 2) * 1.06, target: [...scene.centre] });
+
+  const placeOf = (choice) => {  // middle of a body or of a goal, and how far it is from there to its ends
+    const points = [];
+    if (choice.goal !== undefined) for (const goal of scene.goals) if (goal.goal === choice.goal) points.push(...goal.lines.flat());
+    for (const body of scene.bodies) if (choice.body === body.name) {
+      const p = meshes[body.mesh].points;
+      for (let i = 0; i < p.length; i += 3) points.push(at(body.pose, p.subarray(i, i + 3)));
+    }
+    if (!points.length) return null;
+    const low = [0, 1, 2].map((i) => points.reduce((m, p) => Math.min(m, p[i]), Infinity));
+    const high = [0, 1, 2].map((i) => points.reduce((m, p) => Math.max(m, p[i]), -Infinity));
+    return { middle: add(low, high).map((x) => x / 2), size: Math.hypot(...add(high, low, -1)) / 2 };
+  };
 
   // ------------------------------------------------------------------------------------ the view
   const canvas = $("view");
@@ -178,13 +199,17 @@
     const again = element && element.getAttribute("aria-selected") === "true";
     for (const e of document.querySelectorAll("[aria-selected]")) e.setAttribute("aria-selected", "false");
     if (element && !again) element.setAttribute("aria-selected", "true");
-    const moved = Boolean(choice.rest) !== Boolean(next.rest && !again);
+    const frameOf = (c) => c.rest ? "rest" : c.body !== undefined || c.goal !== undefined ? JSON.stringify(c) : "";
+    const before = frameOf(choice);
     choice = again ? {} : next;
     $("shown").textContent = again ? "" : words;
     if (!gl) return;
-    if (moved) {
+    if (frameOf(choice) !== before) {
+      const turned = camera;
       camera = start();
+      const place = placeOf(choice);
       if (choice.rest) camera.target = [0, 0, choice.rest.top / 2];
+      if (place) camera = { ...turned, target: place.middle, distance: Math.min(camera.distance, Math.max(0.3 * camera.distance, 5 * place.size)) };
     }
     Object.values(picture).forEach(drop);
     picture = build(choice);
@@ -193,7 +218,8 @@
   for (const row of document.querySelectorAll("[data-show]")) {
     const [kind, key] = [row.dataset.show.slice(0, row.dataset.show.indexOf(":")), row.dataset.show.slice(row.dataset.show.indexOf(":") + 1)];
     const what = { face: () => ({ face: Number(key) }), pair: () => ({ pair: scene.pairs[Number(key)] }),
-      rest: () => ({ rest: scene.rests[Number(key)] }), body: () => ({ body: key }) }[kind];
+      rest: () => ({ rest: scene.rests[Number(key)] }), body: () => ({ body: key }),
+      goal: () => ({ goal: Number(key) }) }[kind];
     row.setAttribute("aria-selected", "false");
     if (row.tagName !== "BUTTON") row.tabIndex = 0;
     const act = () => show(what(), row.dataset.words || "", row);

@@ -257,17 +257,23 @@ def _robot(report: RobotReport) -> str:
         if report.objection
         else '<span class="good">closed form</span>: axes 2 and 3 parallel, spherical wrist'
     )
+    jaws = "none"
+    if report.has_jaws:
+        opening = f"{1e3 * gripper.min_opening:g} to {1e3 * gripper.max_opening:g} mm"
+        pads = f"{1e3 * gripper.pad_width:g} x {1e3 * gripper.pad_length:g} mm"
+        jaws = f"open {opening}, pads {pads}"
     a, b = report.nearest
     clear = f"{1e3 * report.clearance:.1f} mm ({_text(a)}, {_text(b)})" if a else "more than 500 mm"
+    if report.is_shapeless:
+        clear = "no shapes were looked at"
     facts = [
         ("inverse kinematics", inverse),
-        ("jaws", f"open {1e3 * gripper.min_opening:g} to {1e3 * gripper.max_opening:g} mm"),
-        ("pads", f"{1e3 * gripper.pad_width:g} x {1e3 * gripper.pad_length:g} mm"),
+        ("jaws", jaws),
         ("clear of itself at home", clear),
         ("never checked", _text(", ".join(f"{a}/{b}" for a, b in report.ignored) or "none")),
         ("joined by a joint", _text(", ".join(f"{a}/{b}" for a, b in report.joined))),
     ]
-    if report.shapeless:
+    if report.shapeless and not report.is_shapeless:
         facts.append(("without a shape", _text(", ".join(report.shapeless))))
     head = ["joint", "from deg ", "to deg ", "deg/s ", "home deg "]
     return "\n".join(
@@ -320,7 +326,8 @@ def _cell(report: CellReport) -> str:
     parts = [_cell_part(i, figures) for i, figures in enumerate(report.parts)]
     head = ["part", "size mm", "on", "pairs ", "unobstructed ", "legal hand poses ", "of "]
     goals = [
-        (_goal(index, goal), f'data-goal="{index}"') for index, goal in enumerate(report.goals)
+        (_goal(index, goal), _shows(f"goal:{index}", f"goal {index}: {goal.goal}"))
+        for index, goal in enumerate(report.goals)
     ]
     return "\n".join(
         [
@@ -336,7 +343,10 @@ def _cell(report: CellReport) -> str:
                 _table(["", "goal", "", "there ", "both ends ", "why not"], goals)
                 if goals
                 else _note("none"),
-                _note("hand poses that are legal at the goal, and at both ends; no way is planned"),
+                _note(
+                    "hand poses that are legal at the goal, and at both ends; no way is planned. "
+                    "Goals that give a pose are outlined in the picture."
+                ),
             ),
         ]
     )
@@ -386,9 +396,17 @@ def _goal(index: int, goal: GoalFigures) -> list[str]:
     verdict = f'<span class="{"good" if good else "bad"}">{_text(goal.verdict)}</span>'
     there, both = goal.there, goal.both
     why = goal.why_none
-    if there is not None and not there.legal:
+    if goal.here is not None and not goal.here.legal:
+        why = f"where it stands: {goal.here.reason}"
+    elif there is not None and not there.legal:
         why = there.reason
     elif both is not None and not both.legal:
         why = both.reason
     counts: list[Any] = ["-" if held is None else _count(held) for held in (there, both)]
-    return [str(index), _text(goal.goal), verdict, *counts, _words(why)]
+    return [
+        str(index),
+        _words(str(goal.goal)),
+        f'<div class="words">{verdict}</div>',
+        *counts,
+        _words(why),
+    ]

@@ -31,6 +31,7 @@ class RobotReport:
         reach: of its hand; None where the kinematics is not supported.
         joined: pairs of bodies that a joint joins.
         ignored: further pairs that are never checked, from the robot file.
+        has_jaws: the description has fingers; else its gripper means nothing.
         clearance: of the robot from itself at home, up to HORIZON [m].
         nearest: the two bodies that are so near to each other; empty if none is within HORIZON.
         warnings: for people.
@@ -41,6 +42,7 @@ class RobotReport:
     reach: Reach | None
     joined: tuple[tuple[str, str], ...]
     ignored: tuple[tuple[str, str], ...]
+    has_jaws: bool
     clearance: float
     nearest: tuple[str, str]
     warnings: tuple[str, ...]
@@ -68,9 +70,9 @@ class RobotReport:
                 for joint, home in zip(robot.joints, robot.home, strict=True)
             ],
             "inverse_kinematics": {"supported": not self.objection, "reason": self.objection},
-            "jaws": jaws_dict(robot.name, robot.gripper),
+            "jaws": jaws_dict(robot.name, robot.gripper) if self.has_jaws else None,
             "reach": None if self.reach is None else self.reach.as_dict(),
-            "bodies": [body.name for body in robot.bodies],
+            "bodies": self.bodies,
             "bodies_without_shape": self.shapeless,
             "never_checked": {
                 "joined": [list(pair) for pair in self.joined],
@@ -82,13 +84,29 @@ class RobotReport:
         }
 
     @property
+    def is_shapeless(self) -> bool:
+        """No body has a shape: nothing can be said of collisions."""
+        return len(self.shapeless) == len(self.bodies)
+
+    @property
     def shapeless(self) -> list[str]:
         """Bodies that collide with nothing because they have no collision geometry."""
-        return [body.name for body in self.robot.bodies if not body.shapes]
+        with_shape = {body.name for body in self.robot.bodies if body.shapes}
+        return [name for name in self.bodies if name not in with_shape]
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names, base first; without fingers that were made up."""
+        fingers = {finger.child for finger in self.robot.gripper.fingers}
+        kept = enumerate(self.robot.bodies)
+        return [body.name for i, body in kept if self.has_jaws or i not in fingers]
 
 
 def inspect_robot(
-    robot: _core.Robot, said: Sequence[str] = (), picture: bool = False
+    robot: _core.Robot,
+    said: Sequence[str] = (),
+    picture: bool = False,
+    has_jaws: bool = True,
 ) -> RobotReport:
     """What a robot is.
 
@@ -96,6 +114,7 @@ def inspect_robot(
         robot: from `handey.robot_file.load_robot`.
         said: warnings from reading it.
         picture: sample the reach for a picture too, which takes longer.
+        has_jaws: False where fingers were only made up to read it.
     """
     objection, reach = "", None
     try:
@@ -112,14 +131,15 @@ def inspect_robot(
     elif hit.a and hit.distance < LEAST_CLEARANCE:
         warnings.append(f"{hit.a} and {hit.b} are {1e3 * hit.distance:.1f} mm apart at home")
     return RobotReport(
-        robot, objection, reach, _joined(robot), _named(robot, robot.ignored_pairs),
-        hit.distance, (hit.a, hit.b), tuple(warnings),
+        robot, objection, reach, _joined(robot, has_jaws), _named(robot, robot.ignored_pairs),
+        has_jaws, hit.distance, (hit.a, hit.b), tuple(warnings),
     )  # fmt: skip
 
 
-def _joined(robot: _core.Robot) -> tuple[tuple[str, str], ...]:
+def _joined(robot: _core.Robot, has_jaws: bool) -> tuple[tuple[str, str], ...]:
     ends = [(joint.parent, joint.child) for joint in robot.joints]
-    ends += [(finger.parent, finger.child) for finger in robot.gripper.fingers]
+    if has_jaws:
+        ends += [(finger.parent, finger.child) for finger in robot.gripper.fingers]
     return _named(robot, ends)
 
 

@@ -20,6 +20,7 @@ from handey.inspection.part import FaceFigures, PartReport
 from handey.inspection.reach import COARSE, POINTINGS, Reach
 from handey.inspection.robot import RobotReport
 from handey.marks import Cells, Paint
+from handey.task import PlaceAt
 
 __all__ = ["MOST_PAIRS", "MOST_RESTS", "cell_scene", "part_scene", "reach_figure", "robot_scene"]
 
@@ -27,6 +28,7 @@ CREASE = np.cos(np.radians(30.0))  # sharper edges are drawn
 SAME_NORMAL, SAME_PLANE = 1e-5, 2e-5  # a triangle lies on a face; [-], [m]
 MOST_TRIANGLES = 400_000  # Choice: some 10 MB of page
 MOST_PAIRS, MOST_RESTS = 200, 24  # Choice: more are in the JSON
+MOST_LINES = 4000  # Choice: of a goal's outline
 PARTS = ("#e8743b", "#2f8fdd", "#3fae5a", "#d9a514", "#b45bd0", "#e0527f", "#14a5a0", "#8a6a48")
 FIXTURE, LINK, HAND = "#b9c4cf", "#f4f2ee", "#6d7884"
 
@@ -222,7 +224,24 @@ def robot_scene(report: RobotReport) -> dict[str, Any]:
     robot = report.robot
     home = _core.Configuration(robot.home, robot.gripper.max_opening)
     _add_robot(meshes, robot, home, np.eye(4))
-    return meshes.scene(math.radians(-40.0))
+    scene = meshes.scene(math.radians(-40.0))
+    return scene if meshes.bodies else scene | _sticks(robot, home)
+
+
+def _sticks(robot: _core.Robot, at: _core.Configuration) -> dict[str, Any]:
+    """Lines from joint to joint to the grasp point, for a robot without shapes."""
+    poses = [np.asarray(X_RB) for X_RB in _core.body_poses(robot, at)]
+    frames = [poses[joint.parent] @ np.asarray(joint.X_PJ) for joint in robot.joints]
+    frames.append(np.asarray(_core.hand_pose(robot, at.q)))
+    points = np.array([np.zeros(3), *(X[:3, 3] for X in frames)])
+    centre = (points.min(0) + points.max(0)) / 2
+    radius = float(np.linalg.norm(points - centre, axis=1).max()) or 1.0
+    axes = []
+    for joint, X in zip(robot.joints, frames, strict=False):
+        half = 0.08 * radius * (X[:3, :3] @ np.asarray(joint.axis))
+        axes.append([(X[:3, 3] - half).tolist(), (X[:3, 3] + half).tolist()])
+    sticks = [points.tolist(), *axes]
+    return {"sticks": sticks, "centre": centre.tolist(), "radius": radius}
 
 
 def cell_scene(report: CellReport) -> dict[str, Any]:
@@ -241,7 +260,25 @@ def cell_scene(report: CellReport) -> dict[str, Any]:
             meshes.add(
                 fixture.name, _triangles(shape), np.asarray(fixture.X_WB), FIXTURE, creased, False
             )
-    return meshes.scene(math.radians(-35.0))
+    scene = meshes.scene(math.radians(-35.0))
+    return scene | {"goals": _goals(report)}
+
+
+def _goals(report: CellReport) -> list[dict[str, Any]]:
+    """Crease edges of the parts at the goals that give a pose, in the colours of the parts."""
+    drawn = []
+    for index, goal in enumerate(report.file.goals):
+        if not isinstance(goal, PlaceAt):
+            continue
+        part = report.file.cell.part_index(goal.part)
+        lines = []
+        for shape in report.file.cell.parts[part].shapes:
+            vertices, triangles = _triangles(shape)
+            placed = vertices @ goal.X_WP[:3, :3].T + goal.X_WP[:3, 3]
+            lines += placed[_creases(vertices, triangles)].tolist()
+        colour = PARTS[part % len(PARTS)]
+        drawn.append({"goal": index, "colour": colour, "lines": lines[:MOST_LINES]})
+    return drawn
 
 
 def reach_figure(reach: Reach) -> str:

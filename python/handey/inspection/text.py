@@ -251,8 +251,13 @@ def robot_lines(report: RobotReport, verbose: bool = False) -> list[str]:
         lines += _folded("inverse", f"NOT supported, no planning: {report.objection}")
     else:
         lines.append(_row("inverse", "closed form: axes 2 and 3 parallel, spherical wrist"))
-    lines.append(jaws_line(robot.name, robot.gripper))
+    if report.has_jaws:
+        lines.append(jaws_line(robot.name, robot.gripper))
+    else:
+        lines.append(_row("jaws", "none"))
     lines += _reach_lines(report)
+    if report.is_shapeless:
+        return [*lines, _row("home", "no shapes were looked at")]
     if report.nearest[0]:
         a, b = report.nearest
         lines.append(_row("home", f"clear of itself by {1e3 * report.clearance:.1f} mm: {a}, {b}"))
@@ -316,7 +321,7 @@ def cell_lines(report: CellReport, verbose: bool = False) -> list[str]:
         lines.append(_row("parts", "none"))
     shown = report.parts if verbose else report.parts[:6]
     for figures in shown:
-        lines += _standing_part(figures, verbose)
+        lines += _standing_part(figures)
     lines += _more(len(report.parts) - len(shown), "parts")
     goals = report.goals if verbose else report.goals[:6]
     for index, goal in enumerate(goals):
@@ -325,6 +330,9 @@ def cell_lines(report: CellReport, verbose: bool = False) -> list[str]:
     if report.touching:
         touching = [f"{a}/{b} {1e3 * depth:.2f} mm" for a, b, depth in report.touching]
         lines += listed(touching, WIDTH, _row("overlap", ""))
+    if verbose:
+        for figures in report.parts:
+            lines += ["", *part_lines(figures.part, verbose)]
     return lines
 
 
@@ -342,7 +350,7 @@ def _support_lines(report: CellReport) -> list[str]:
     return listed(told, WIDTH, _row("supports", ""))
 
 
-def _standing_part(figures: PartFigures, verbose: bool) -> list[str]:
+def _standing_part(figures: PartFigures) -> list[str]:
     part, standing = figures.part, figures.standing
     on = "on " + ", ".join(standing.on) if standing.on else "on nothing"
     movable = ", may move" if figures.may_move else ""
@@ -355,7 +363,6 @@ def _standing_part(figures: PartFigures, verbose: bool) -> list[str]:
         lines += _folded("", f"{part.rejected[0]}: {why_not(part, part.rejected[0])}")
     if figures.held is not None and (figures.held.tried or part.pairs):
         lines += _folded("", f"hand poses: {_held(figures.held)}")
-    lines += _folded("", f"stands in {len(part.rests)} ways") if verbose else []
     return lines
 
 
@@ -373,6 +380,8 @@ def _goal_lines(index: int, goal: GoalFigures) -> list[str]:
         return lines + _folded("", goal.why_none)
     if goal.there is None or goal.both is None:
         return lines
+    if goal.here is not None and not goal.here.legal:
+        lines += _folded("", f"where it stands: {_held(goal.here)}")
     if goal.both.legal:
         lines += _folded(
             "", f"{goal.there.legal} hand poses legal there, {goal.both.legal} at both ends"
@@ -381,5 +390,5 @@ def _goal_lines(index: int, goal: GoalFigures) -> list[str]:
         lines += _folded("", f"{goal.there.legal} hand poses legal there, none at both ends")
         lines += _folded("", goal.both.reason)
     else:
-        lines += _folded("", _held(goal.there))
+        lines += _folded("", f"there: {_held(goal.there)}")
     return lines
