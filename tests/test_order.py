@@ -102,6 +102,19 @@ def test_two_parts_change_places_over_a_third_place(tmp_path) -> None:
     assert carried in (["b", "a", "b"], ["a", "b", "a"])
 
 
+def test_two_parts_change_places_and_one_is_turned_upside_down(tmp_path) -> None:
+    parts = {
+        "a": box([0.04, 0.05, 0.06], [0.5, 0.15, 0.03]),
+        "b": box([0.04, 0.05, 0.06], [0.5, -0.15, 0.03]),
+    }
+    task = [goal("a", [0.5, -0.15, 0.03]), goal("b", [0.5, 0.15, 0.025])]
+    task[0]["at"]["rpy"] = [np.pi, 0.0, 0.0]
+    task[1]["at"]["rpy"] = [np.pi / 2, 0.0, 0.0]
+    result, carried = planned(write(tmp_path, parts, task, order="any"))
+    assert result.report.regrasps >= 1
+    assert len(carried) == 3 + result.report.regrasps
+
+
 def test_a_part_where_another_is_to_go_goes_first(tmp_path) -> None:
     parts = {
         "a": box([0.05, 0.06, 0.04], [0.48, 0.25, 0.02]),

@@ -109,9 +109,10 @@ def runs_into(
     allowance = _core.Allowance(closed_on=part, held_touches=_all_but(cell, other))
     standing = cell
     for motion in carry.motions:
-        there = cell.with_held(part, carry.X_HP) if motion.held else standing
+        X_HP = carry.X_HP if motion.X_HP is None else motion.X_HP
+        there = cell.with_held(part, X_HP) if motion.held else standing
         if motion.held:
-            X_WP = _core.hand_in_world(cell, motion.path[-1].q) @ carry.X_HP
+            X_WP = _core.hand_in_world(cell, motion.path[-1].q) @ X_HP
             standing = cell.with_part_at(part, X_WP)  # once the hand lets it go
         checker = _core.CollisionChecker(model, there, allowance)
         hit = _core.certify_path(checker, motion.path).hit
