@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hand_made import ROOT
 
+import handey
 from handey import _core, cli
 from handey.cell_file import load_cell
 from handey.errors import InvalidInput
@@ -314,6 +315,7 @@ def test_a_cell_tells_what_stands_on_what_and_what_can_be_held(demo):
         ("impossible_too_wide", ["no grasp found where it stands"]),
         ("impossible_closed_box", ["no grasp found where it stands"]),
         ("already_met", ["met already"]),
+        ("figure_1", ["by a regrasp at best"]),
         ("on_table", ["within reach", "within reach"]),
     ],
 )
@@ -322,11 +324,24 @@ def test_the_goals_of_a_cell_are_told(cell, verdicts):
     assert [goal.verdict for goal in report.goals] == verdicts
 
 
+def test_what_the_planner_grasps_with_is_among_the_legal_grasps():
+    """Each end of a plan's grasp is legal by itself; a goal that is planned is within reach."""
+    file = load_cell(CELLS / "open_table.yaml")
+    report = inspect_cell(file)
+    (goal,) = report.goals
+    assert goal.verdict == "within reach"
+    assert 0 < goal.both.legal <= min(goal.here.legal, goal.there.legal)
+    assert goal.here.legal == report.parts[0].held.legal
+    assert handey.plan(file).plan is not None
+
+
 def test_reasons_are_told_where_no_grasp_is_legal(capsys):
     out_of_reach = run(capsys, CELLS / "impossible_out_of_reach.yaml")[1]
     assert "beyond reach" in out_of_reach
     too_wide = run(capsys, CELLS / "impossible_too_wide.yaml")[1]
     assert "the jaws open 24.0 mm too little" in too_wide
+    closed_box = run(capsys, CELLS / "impossible_closed_box.yaml")[1]
+    assert "where it stands: none of" in closed_box and "hand hits box" in closed_box
 
 
 def test_the_share_that_was_not_measured_is_told():

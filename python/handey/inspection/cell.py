@@ -10,7 +10,6 @@ placement.
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -22,6 +21,7 @@ from handey.cell_file import CellFile
 from handey.depth_map import DepthMapEntry
 from handey.errors import InvalidInput
 from handey.goal_places import is_met, places_for
+from handey.inspection.holding import Held, Holding, rank
 from handey.inspection.part import PartReport, inspect_body
 from handey.placement import TOUCHING, Standing, examine_standing
 from handey.resting import Sought
@@ -29,24 +29,7 @@ from handey.task import Goal, PlaceAt
 
 __all__ = ["CellReport", "GoalFigures", "MapFigures", "PartFigures", "inspect_cell"]
 
-DIRECTIONS = 12  # Choice: half of what planning starts with; enough to count by
-MOST_POSES = 1000  # Choice: of a pair
 PLACES = 6  # Choice: of a goal that leaves the pose open, so many placements are looked at
-
-
-@dataclass(frozen=True)
-class Held:
-    """How many hand poses hold a part legally.
-
-    Attributes:
-        legal: of them.
-        tried: all that were looked at.
-        reason: what most of the others met; of the pair that fell last.
-    """
-
-    legal: int
-    tried: int
-    reason: str
 
 
 @dataclass(frozen=True)
@@ -90,7 +73,7 @@ class GoalFigures:
         why_none: why there is no placement.
         there: hand poses at the best of them; None where the kinematics is not supported.
         both: hand poses that are legal where the part is and there.
-        here: hand poses where the part is before; looked at where `both` has none.
+        here: hand poses where the part is before.
     """
 
     goal: Goal
@@ -223,12 +206,13 @@ def inspect_cell(file: CellFile) -> CellReport:
         solver = _core.SphericalWristSolver(cell.robot)
     except InvalidInput as error:
         objection = error.faults[0].message
-    parts = [_part(cell, model, solver, index) for index in range(len(cell.parts))]
+    holding = None if solver is None else Holding(cell.robot, solver)
+    parts = [_part(cell, model, holding, index) for index in range(len(cell.parts))]
     goals = []
     now = cell
     for goal in file.goals:
         around = _without_movable(file, goal) if file.task.any_order else now
-        figures, after = _goal(file, around, now, solver, goal)
+        figures, after = _goal(file, around, now, solver, holding, goal)
         goals.append(figures)
         now = now if file.task.any_order else after
     hit = _core.CollisionChecker(model, cell).closest(cell.start, 0.5)
@@ -249,70 +233,16 @@ def inspect_cell(file: CellFile) -> CellReport:
 def _part(
     cell: _core.Cell,
     model: _core.CollisionModel,
-    solver: _core.SphericalWristSolver | None,
+    holding: Holding | None,
     index: int,
 ) -> PartFigures:
     part = cell.parts[index]
     report = inspect_body(part, cell.robot)
     near = _core.touching_bodies(model, cell, index, TOUCHING)
     standing = examine_standing(cell, index, np.asarray(part.X_WB), near)
-    ranking = _rank(cell, index, part.X_WB, False, report.features)
-    held = None if solver is None else _held(cell, model, solver, index, part.X_WB, ranking)
+    ranking = rank(cell, index, part.X_WB, False, report.features)
+    held = None if holding is None else holding.at(cell, model, index, part.X_WB)[1]
     return PartFigures(report, standing, len(ranking.ranked), held, part.may_move)
-
-
-def _rank(
-    cell: _core.Cell,
-    part: int,
-    X_WP: np.ndarray,
-    both: bool,
-    features: _core.FeaturePairs | None = None,
-) -> _core.Ranking:
-    options = _core.RankingOptions(use_destination=both)
-    return _core.rank_grasps(cell, part, X_WP, options, features=features)
-
-
-def _held(
-    cell: _core.Cell,
-    model: _core.CollisionModel,
-    solver: _core.SphericalWristSolver,
-    part: int,
-    X_WP: np.ndarray,
-    ranking: _core.Ranking,
-) -> Held:
-    """The hand poses that are legal where the part is and at X_WP (4, 4)."""
-    if not ranking.ranked:
-        return Held(0, 0, _no_pair(ranking))
-    one_place = np.allclose(np.asarray(cell.parts[part].X_WB), X_WP, atol=1e-9)
-    scene = _core.GraspScene(model=model, cell=cell, part=part, X_WP_goal=X_WP)
-    options = _core.LegalityOptions(directions=DIRECTIONS, most_poses=MOST_POSES)
-    legal = tried = 0
-    reasons: Counter[str] = Counter()
-    for pair in ranking.ranked:
-        found = _core.find_legal_grasps(scene, solver, pair, options)
-        legal += len(found.poses)
-        tried += found.tried
-        if found.worst_reason:
-            reasons[_kind_of(found.worst_reason, one_place)] += found.tried - len(found.poses)
-    return Held(legal, tried, reasons.most_common(1)[0][0] if reasons else "")
-
-
-def _kind_of(reason: str, one_place: bool) -> str:
-    """A reason without the counts of its pair, and at one place without that place."""
-    kind = reason.rsplit(": ", 1)[0]
-    return kind.replace(" (origin)", "").replace(" (destination)", "") if one_place else kind
-
-
-def _no_pair(ranking: _core.Ranking) -> str:
-    """Why no pair of features is left."""
-    met = Counter(name for pair in ranking.obstructed for name in pair.obstructing)
-    if met:
-        names = ", ".join(name for name, _ in met.most_common(3))
-        return f"all {len(ranking.obstructed)} pairs that the jaws span are obstructed by {names}"
-    if ranking.rejected:
-        least = min(ranking.rejected, key=lambda pair: pair.width)
-        return f"the jaws span no pair; {least}: {least.reason}"
-    return "no two features are opposite to each other"
 
 
 def _without_movable(file: CellFile, goal: Goal) -> _core.Cell:
@@ -331,40 +261,34 @@ def _goal(
     cell: _core.Cell,
     now: _core.Cell,
     solver: _core.SphericalWristSolver | None,
+    holding: Holding | None,
     goal: Goal,
 ) -> tuple[GoalFigures, _core.Cell]:
     """The figures of a goal in a cell, and the cell after it; `now` tells whether it is met."""
     if is_met(goal, now, _core.make_collision_model(now), file.cell):
         return GoalFigures(goal, True, 0, "", None, None), cell
     part = cell.part_index(goal.part)
-    if solver is None:
+    if solver is None or holding is None:
         moves = isinstance(goal, PlaceAt)
         then = cell.with_part_at(part, goal.X_WP) if isinstance(goal, PlaceAt) else cell
         return GoalFigures(goal, False, int(moves), "", None, None), then
     model = _core.make_collision_model(cell)
     sought = Sought()
     stream = places_for(goal, cell, model, solver, file.cell, sought=sought)
+    here, at_start = holding.at(cell, model, part, np.asarray(cell.parts[part].X_WB))
     found: list[tuple[Held, Held, _core.Cell]] = []
     for place in islice(stream, PLACES):
-        X_WP = place.X_WP
-        there = cell.with_part_at(part, X_WP)
-        at_goal = _held(there, model, solver, part, X_WP, _rank(there, part, X_WP, False))
-        at_both = Held(0, 0, "no grasp is legal there")
-        if at_goal.legal:
-            at_both = _held(cell, model, solver, part, X_WP, _rank(cell, part, X_WP, True))
-        if at_both.legal > at_goal.legal:  # other targets were tried; what holds both holds there
-            at_goal = Held(at_both.legal, max(at_goal.tried, at_both.tried), at_goal.reason)
-        found.append((at_goal, at_both, there))
+        there, at_goal = holding.at(cell, model, part, place.X_WP)
+        at_both = Held(0, 0, "no grasp is legal there" if at_start.legal else at_start.reason)
+        if at_goal.legal and at_start.legal:
+            at_both = holding.at_both(cell, model, part, place.X_WP, here & there)
+        found.append((at_goal, at_both, cell.with_part_at(part, place.X_WP)))
         if at_both.legal:
             break
     if not found:
-        return GoalFigures(goal, False, 0, sought.reason(), None, None), cell
-    at_goal, at_both, there = max(found, key=lambda f: (f[1].legal, f[0].legal))
-    here = None
-    if not at_both.legal:
-        X_WP = np.asarray(cell.parts[part].X_WB)
-        here = _held(cell, model, solver, part, X_WP, _rank(cell, part, X_WP, False))
-    return GoalFigures(goal, False, len(found), "", at_goal, at_both, here), there
+        return GoalFigures(goal, False, 0, sought.reason(), None, None, at_start), cell
+    at_goal, at_both, after = max(found, key=lambda f: (f[1].legal, f[0].legal))
+    return GoalFigures(goal, False, len(found), "", at_goal, at_both, at_start), after
 
 
 def _supports(cell: _core.Cell) -> tuple[tuple[str, tuple[_core.SupportFace, ...]], ...]:
@@ -384,6 +308,4 @@ def _map(entry: DepthMapEntry) -> MapFigures:
 
 
 def _held_dict(held: Held | None) -> dict[str, Any] | None:
-    if held is None:
-        return None
-    return {"legal": held.legal, "tried": held.tried, "reason": held.reason}
+    return None if held is None else held.as_dict()

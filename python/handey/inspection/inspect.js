@@ -151,6 +151,10 @@
         };
       } else if (choice.body !== undefined) colour = body.name === choice.body ? A : body.ghost ? rgb("#e9edf1") : PLAIN;
       solid(faces, lines, meshes[body.mesh], mul(pose, body.pose), colour);
+      if (choice.body === body.name) {  // its edges shine through what stands before it
+        const { points, edges } = meshes[body.mesh];
+        for (const e of edges) put(seen, at(body.pose, points.subarray(3 * e, 3 * e + 3)), NONE, A);
+      }
     }
     if (choice.pair) {
       strokes(over, choice.pair.onA, rgb("#8c2f00")); strokes(over, choice.pair.onB, rgb("#07336f"));

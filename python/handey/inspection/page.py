@@ -17,7 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from handey.inspection.cell import CellReport, GoalFigures, Held, PartFigures
+from handey.inspection.cell import CellReport, GoalFigures, PartFigures
+from handey.inspection.holding import Held
 from handey.inspection.part import PartReport, kind_words
 from handey.inspection.reach import POINTINGS
 from handey.inspection.robot import RobotReport

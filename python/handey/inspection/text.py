@@ -12,7 +12,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from handey import _core
-from handey.inspection.cell import CellReport, GoalFigures, Held, PartFigures
+from handey.inspection.cell import CellReport, GoalFigures, PartFigures
+from handey.inspection.holding import Held
 from handey.inspection.part import PartReport, kind_words
 from handey.inspection.reach import POINTINGS, ReachRow
 from handey.inspection.robot import RobotReport
@@ -382,13 +383,11 @@ def _goal_lines(index: int, goal: GoalFigures) -> list[str]:
         return lines
     if goal.here is not None and not goal.here.legal:
         lines += _folded("", f"where it stands: {_held(goal.here)}")
-    if goal.both.legal:
-        lines += _folded(
-            "", f"{goal.there.legal} hand poses legal there, {goal.both.legal} at both ends"
-        )
-    elif goal.there.legal:
-        lines += _folded("", f"{goal.there.legal} hand poses legal there, none at both ends")
+    if not goal.there.legal:
+        same = goal.here is not None and goal.here == goal.there
+        return lines + ([] if same else _folded("", f"there: {_held(goal.there)}"))
+    both = f"{goal.both.legal or 'none'} at both ends"
+    lines += _folded("", f"{goal.there.legal} hand poses legal there, {both}")
+    if not goal.both.legal and goal.here is not None and goal.here.legal:
         lines += _folded("", goal.both.reason)
-    else:
-        lines += _folded("", f"there: {_held(goal.there)}")
     return lines
