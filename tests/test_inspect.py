@@ -238,6 +238,13 @@ def test_why_a_robot_cannot_be_planned_for_is_told(tmp_path):
     assert "axes 2 and 3" in report.objection and report.reach is None
     assert "NOT supported" in "\n".join(robot_lines(report))
     assert report.as_dict()["inverse_kinematics"]["supported"] is False
+    cell = (CELLS / "on_table.yaml").read_text().replace("../robots/puma560", str(folder))
+    (tmp_path / "cell.yaml").write_text(cell.replace("../parts", str(PARTS)))
+    report = inspect_cell(load_cell(tmp_path / "cell.yaml"))
+    assert "axes 2 and 3" in report.objection
+    assert [goal.verdict for goal in report.goals] == ["not known", "not known"]
+    assert all(figures.held is None and figures.part.pairs for figures in report.parts)
+    write_page(report, tmp_path / "page.html")
 
 
 def test_a_urdf_alone_tells_what_was_taken_for_what(capsys, tmp_path):
@@ -362,6 +369,10 @@ def test_the_share_that_was_not_measured_is_told():
         (["nowhere.stl"], "nowhere.stl: no such file"),
         (["nowhere.yaml"], "nowhere.yaml: cannot be read: No such file or directory"),
         ([ROBOT, "--part", "x"], f"{ROBOT}: --part: belongs to a cell file"),
+        (
+            [PARTS / "block.stl", "--robot", CELLS / "demo.yaml"],
+            f"{CELLS / 'demo.yaml'}: --robot: expected a robot file, found a cell",
+        ),
         ([ROBOT, "--scale", "2"], f"{ROBOT}: --scale: belongs to a mesh file"),
         (
             [f"{CELLS / 'stack.yaml'}:bass"],

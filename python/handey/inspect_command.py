@@ -109,6 +109,9 @@ def _robot(options: argparse.Namespace) -> _core.Robot | None:
         return None
     from handey.robot_file import load_robot
 
+    if Path(options.robot).suffix.lower() in YAML:
+        found = _yaml_kind(options.robot)
+        _refuse(found == "cell", "--robot", "expected a robot file, found a cell", options.robot)
     robot, said = load_robot(options.robot)
     warn(options, said)
     return robot

@@ -89,7 +89,7 @@ class GoalFigures:
         """In one word or a few."""
         if self.met:
             return "met already"
-        if not self.places:
+        if self.why_none:
             return "no placement"
         if self.there is None or self.both is None:
             return "not known"
@@ -269,9 +269,8 @@ def _goal(
         return GoalFigures(goal, True, 0, "", None, None), cell
     part = cell.part_index(goal.part)
     if solver is None or holding is None:
-        moves = isinstance(goal, PlaceAt)
         then = cell.with_part_at(part, goal.X_WP) if isinstance(goal, PlaceAt) else cell
-        return GoalFigures(goal, False, int(moves), "", None, None), then
+        return GoalFigures(goal, False, 0, "", None, None), then
     model = _core.make_collision_model(cell)
     sought = Sought()
     stream = places_for(goal, cell, model, solver, file.cell, sought=sought)
