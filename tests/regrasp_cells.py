@@ -205,6 +205,7 @@ class Outcome:
     """What came of one cell."""
 
     path: Path
+    part: str
     planned: bool
     valid: bool
     cpu: float
@@ -226,15 +227,18 @@ class Outcome:
 
 
 def run_one(path: Path) -> Outcome:
-    result = handey.plan(handey.load_cell(path))
+    cell_file = handey.load_cell(path)
+    part = cell_file.goals[0].part
+    result = handey.plan(cell_file)
     report = result.report
     if result.plan is None:
-        return Outcome(path, False, False, report.cpu_s, 0.0, 0, report.reasons)
+        return Outcome(path, part, False, False, report.cpu_s, 0.0, 0, report.reasons)
     out = path.with_suffix(".plan.json")
     result.plan.save(out)
     checked = handey.check(path, out)
     faults = [str(fault) for fault in checked.faults[:3]]
-    return Outcome(path, True, checked.ok, report.cpu_s, report.duration_s, report.regrasps, faults)
+    duration, regrasps = report.duration_s, report.regrasps
+    return Outcome(path, part, True, checked.ok, report.cpu_s, duration, regrasps, faults)
 
 
 def main() -> int:
@@ -261,9 +265,7 @@ def main() -> int:
                 print(outcome, flush=True)
     planned = [o for o in outcomes if o.planned]
     cpu = [o.cpu for o in outcomes] or [float("nan")]
-    parts = {
-        next(iter(yaml.safe_load(o.path.read_text())["parts"])) for o in outcomes if o.path.exists()
-    }
+    parts = {outcome.part for outcome in outcomes}
     counts = {n: sum(o.regrasps == n for o in planned) for n in range(5)}
     print(
         f"regrasp: {len(outcomes)} cells, {len(planned)} planned, "
