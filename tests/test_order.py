@@ -259,6 +259,15 @@ def test_a_part_with_two_goals_reaches_them_one_after_the_other(tmp_path) -> Non
         assert np.allclose(result.plan.placements["a"][:3, 3], [0.6, -0.15, 0.02])
 
 
+def test_a_task_may_have_many_goals(tmp_path) -> None:
+    parts = {"a": box([0.05, 0.06, 0.04], [0.48, 0.15, 0.02])}
+    task = [goal("a", [0.5, (-1) ** i * 0.1, 0.02]) for i in range(90)]
+    for order in ("given", "any"):
+        result = handey.plan(handey.load_cell(write(tmp_path, parts, task, order=order)))
+        assert result.plan is not None, "\n".join(result.report.reasons)
+        assert sum(step.action == "grasp" for step in result.plan.steps) == 90
+
+
 def test_the_order_found_is_the_same_each_time() -> None:
     cell_file = handey.load_cell(CELLS / "restack.yaml")
     once, again = (handey.plan(cell_file).plan for _ in range(2))

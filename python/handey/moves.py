@@ -27,7 +27,8 @@ from handey.task import PlaceAt
 
 __all__ = ["Hands", "Move", "Mover", "State"]
 
-MOST_TRIES = 60  # Choice: goals and parts moved aside tried in one pass of the search
+# Choice: moves tried in one pass of the search, and more of them for each goal.
+MOST_TRIES, TRIES_PER_GOAL = 60, 4
 MOST_PLACES = (12, 6, 4)  # Choice: of an open goal tried with little effort, and with more
 MOST_PLACES_ASIDE = 8  # Choice: of a part moved aside, tried before another part is
 WAYS_ON = 2  # Choice: placements of one part from which the search goes on
@@ -123,7 +124,7 @@ class Mover:
 
     def is_spent(self) -> bool:
         """Have as many moves been tried as may be?"""
-        return self.tries >= MOST_TRIES
+        return self.tries >= MOST_TRIES + TRIES_PER_GOAL * len(self.cell_file.goals)
 
     def reached(
         self,
