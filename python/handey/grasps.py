@@ -68,6 +68,7 @@ class Grasps:
         self._work, self._options, self._report = work, options, report
         self._seen = _Seen()
         self._narrow: dict[_core.PairChoice, list[_core.RankedPair]] = {}
+        self._kinds = _kinds(options)  # not looked at yet
         self._denser = _denser_passes(options)
         self._turns: deque[_Turn] = deque()
 
@@ -77,10 +78,9 @@ class Grasps:
         Args:
             elsewhere: asked where a first look finds no legal pose; the stream ends there if true.
         """
-        for kind in _kinds(self._options):
-            ranking = _rank(self._work, self._options.ranking, kind)
-            _report_pairs(self._report, ranking, kind, self._options.ranking)
-            yield from self._legal(ranking.ranked)
+        while self._kinds:
+            kind = self._kinds.pop(0)
+            yield from self._of_kind(kind)
             if not self._report.funnel.get("legal grasp poses") and elsewhere():
                 return
             # Faces once more, before others are looked at.
@@ -95,11 +95,18 @@ class Grasps:
             yield from self._by_turns(self._approached)
 
     def rest(self) -> Iterator[Grasp]:
-        """What the denser passes give that were spared, because a grasp could be approached."""
+        """What was spared, because a grasp could be approached or the first stream ended early."""
+        while self._kinds:
+            yield from self._of_kind(self._kinds.pop(0))
         yield from self._by_turns(lambda: False)
         while self._denser:
             self._begin(*self._denser.pop(0))
             yield from self._by_turns(lambda: False)
+
+    def _of_kind(self, kind: _core.PairChoice) -> Iterator[Grasp]:
+        ranking = _rank(self._work, self._options.ranking, kind)
+        _report_pairs(self._report, ranking, kind, self._options.ranking)
+        yield from self._legal(ranking.ranked)
 
     def _approached(self) -> bool:
         return bool(self._report.funnel.get("approached"))
