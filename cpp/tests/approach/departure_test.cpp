@@ -3,7 +3,11 @@
 #include "handey/approach/departure.hpp"
 
 #include <cmath>
+#include <random>
 
+#include "../../src/approach/hand_with_part.hpp"
+#include "../../src/approach/obstacle_layers.hpp"
+#include "handey/approach/plane_search.hpp"
 #include "handey/approach/retreat.hpp"
 #include "handey/collision/box_certificate.hpp"
 #include "handey/errors.hpp"
@@ -39,6 +43,29 @@ Cell block_in_pocket(double far_ledge = 0.03) {
   });
   cell.parts[0].shapes[0].geometry = Box{{0.04, 0.12, 0.05}};
   return cell;
+}
+
+/// An L of 120 x 50 mm, 40 mm thick, as one mesh: at its far end it is half as high.
+Shape l_shape() {
+  TriangleMesh mesh;
+  const double x = 0.02;
+  const std::vector<Eigen::Vector2d> l = {{-0.06, -0.025}, {0.06, -0.025}, {0.06, 0.0},
+                                          {0.03, 0.0},     {0.03, 0.025},  {-0.06, 0.025}};
+  for (const double side : {-x, x}) {
+    for (const Eigen::Vector2d& p : l) mesh.vertices.emplace_back(side, p.x(), p.y());
+  }
+  const int n = static_cast<int>(l.size());
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    mesh.triangles.emplace_back(j, n + j, n + i);
+    mesh.triangles.emplace_back(i, j, n + i);
+  }
+  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 3),
+                                   Eigen::Vector3i(0, 3, 4), Eigen::Vector3i(0, 4, 5)}) {
+    mesh.triangles.emplace_back(t[0] + n, t[1] + n, t[2] + n);
+    mesh.triangles.emplace_back(t[2], t[1], t[0]);
+  }
+  return {MeshShape{std::make_shared<const TriangleMesh>(std::move(mesh)), true}, Pose::Identity()};
 }
 
 struct HeldPart {
@@ -174,29 +201,7 @@ TEST(PlanDeparture, DrawsTheOpenHandOutFromUnderALid) {
 TEST(PlanDeparture, CarriesAPartThatIsNotConvexAndGivesTheSameWayTwice) {
   // An L of two bars as one mesh: its notch is free, so the pocket's ledge may reach into it.
   Cell cell = block_in_pocket();
-  const auto outline = [] {
-    TriangleMesh mesh;
-    const double x = 0.02;
-    const std::vector<Eigen::Vector2d> l = {{-0.06, -0.025}, {0.06, -0.025}, {0.06, 0.0},
-                                            {0.03, 0.0},     {0.03, 0.025},  {-0.06, 0.025}};
-    for (const double side : {-x, x}) {
-      for (const Eigen::Vector2d& p : l) mesh.vertices.emplace_back(side, p.x(), p.y());
-    }
-    const int n = static_cast<int>(l.size());
-    for (int i = 0; i < n; ++i) {
-      const int j = (i + 1) % n;
-      mesh.triangles.emplace_back(j, n + j, n + i);
-      mesh.triangles.emplace_back(i, j, n + i);
-    }
-    for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 3),
-                                     Eigen::Vector3i(0, 3, 4), Eigen::Vector3i(0, 4, 5)}) {
-      mesh.triangles.emplace_back(t[2] + n, t[1] + n, t[0] + n);
-      mesh.triangles.emplace_back(t[0], t[1], t[2]);
-    }
-    return mesh;
-  };
-  cell.parts[0].shapes[0].geometry =
-      MeshShape{std::make_shared<const TriangleMesh>(outline()), true};
+  cell.parts[0].shapes = {l_shape()};
   HeldPart part(cell);
   DepartureOptions options;
   options.most_slides = 0;
@@ -205,6 +210,64 @@ TEST(PlanDeparture, CarriesAPartThatIsNotConvexAndGivesTheSameWayTwice) {
   const DepartureResult again = plan_departure(part.clear, part.solver, part.lifted(), options);
   ASSERT_EQ(way.path.size(), again.path.size());
   for (std::size_t i = 0; i < way.path.size(); ++i) EXPECT_EQ(way.path[i].q, again.path[i].q);
+}
+
+/// Hand and part among random boxes: what the lattice says of each pose, and what the checker says.
+TEST(HandWithPart, MasksOnlyWhatCollidesAndFreesOnlyWhatDoesNot) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> away(-0.09, 0.09), size(0.01, 0.05);
+  std::uniform_int_distribution<int> cells(-14, 14), turns(0, 35);
+  int masked = 0, free = 0;
+  for (int round = 0; round < 6; ++round) {
+    std::vector<Body> boxes;
+    for (int n = 0; n < 8; ++n) {
+      const Pose X_WB =
+          at(0.5 + away(random), 0.2 + away(random), 0.5 + away(random), away(random));
+      boxes.push_back(
+          box("box " + std::to_string(n), {size(random), size(random), size(random)}, X_WB));
+    }
+    Cell cell = block_on_table(boxes);
+    cell.parts[0].shapes = {l_shape()};
+    if (round % 2 == 1) cell.parts[0].shapes = {{Cylinder{0.02, 0.09}, Pose::Identity()}};
+    // The part lies in the hand a little aslant.
+    const Pose X_HP = pose_from_xyz_rpy({0.003, 0.002, 0.01}, {0.3, 0.1 * round, 1.5});
+    const Cell held = cell.with_held(0, X_HP);
+    CollisionChecker checker(make_collision_model(held), held);
+    const SphericalWristSolver solver(*held.robot);
+    Pose X_WH = hand_on_part(cell);
+    X_WH.translation() = Eigen::Vector3d(0.5, 0.2, 0.5);
+    const Pose X_WG = X_WH * hand_in_plane({}, false).inverse();
+
+    const GripperOutline gripper = gripper_outline(*held.robot, 0.04, false);
+    const GripperOutline outline = outline_with_part(gripper, held);
+    const GripperOutline core = core_with_part(gripper, checker);
+    EXPECT_GT(outline.pieces.size(), gripper.pieces.size());
+    EXPECT_GT(core.pieces.size(), gripper.pieces.size()) << "round " << round;
+    const ObstacleLayers around(held, outline, X_WG, {0, 0}, 0.35);
+    const ObstacleLayers within(held, core, X_WG, {0, 0}, 0.35);
+    PlaneSearchOptions options;
+    options.directions = 36;
+    const PlaneSearch plane(around.draw(0.004), outline, within.draw_inside(0.004), core, {}, 0.06,
+                            options);
+    for (int trial = 0; trial < 400; ++trial) {
+      const LatticePoint point{cells(random), cells(random), turns(random)};
+      const Pose X_RH = held.X_WR.inverse() * X_WG * hand_in_plane(plane.pose(point), false);
+      for (const InverseSolution& solution : solver.solve(X_RH).solutions) {
+        const std::optional<Hit> hit = checker.find_hit({solution.q, 0.04}, 0.0);
+        const bool by_hand = hit && (hit->a.rfind("held", 0) == 0 || hit->a == "left_finger" ||
+                                     hit->a == "right_finger");
+        if (plane.is_blocked(point)) {
+          ++masked;
+          EXPECT_TRUE(hit.has_value()) << "round " << round;
+        } else if (plane.is_free(point)) {
+          ++free;
+          EXPECT_FALSE(by_hand && hit->b.rfind("box", 0) == 0) << hit->a << " " << hit->b;
+        }
+      }
+    }
+  }
+  EXPECT_GT(masked, 1000);
+  EXPECT_GT(free, 300);
 }
 
 TEST(PlanDeparture, RefusesWrongInput) {
