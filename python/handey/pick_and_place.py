@@ -44,7 +44,8 @@ class DirectOptions:
         approach: options of the local planner.
         retreat: options of straight lifts and withdrawals.
         departure: the same in the grasp plane, where no straight one leads out.
-        roomier: the same, where a straight one does, but ends with little room.
+        roomier: the same, where a straight one does, but ends with little room. Choice: farther,
+            and only what is quick.
         gross: options of the gross motions.
         most_places: configurations at the destination that are tried for one grasp.
         arm: budget of motions near obstacles by the whole arm, where the local planners give none;
@@ -55,7 +56,7 @@ class DirectOptions:
     retreat: _core.RetreatOptions = field(default_factory=_core.RetreatOptions)
     departure: _core.DepartureOptions = field(default_factory=_core.DepartureOptions)
     roomier: _core.DepartureOptions = field(
-        default_factory=lambda: _core.DepartureOptions(most_slides=1, search_levels=0)
+        default_factory=lambda: _core.DepartureOptions(most=0.16, most_slides=1, search_levels=0)
     )
     gross: _core.GrossOptions = field(default_factory=_core.GrossOptions)
     most_places: int = 4

@@ -103,7 +103,8 @@ class LocalMotion:
         step: index in the plan's steps.
         goal: index in the task of the goal that it serves.
         action: "approach", "depart", "deposit" or "withdraw".
-        planner: what gave it: "straight", "quasipotential", "plane search", "RRT-Connect".
+        planner: what gave it: "straight", "two straights", "quasipotential", "plane search",
+            "RRT-Connect".
     """
 
     step: int
