@@ -138,7 +138,7 @@ Args:
     robot: Robot.
     ranking: RankingOptions of its feature pairs.
     legality: LegalityOptions; directions, spacing, contact, hold and clearances count.
-    most: grasps, shared evenly by pairs and directions.
+    most: grasps, shared evenly by pairs and directions; more where one would have none.
 
 Returns:
     PartGrasps.

@@ -24,7 +24,7 @@ from handey.cache import table_directory
 
 __all__ = ["GraspTable", "GraspTableOptions", "grasp_table", "joined", "with_pairs"]
 
-FORMAT = 1  # raised when the meaning of a kept table changes
+FORMAT = 2  # raised when the meaning of a kept table changes
 ROW = 10  # numbers of a grasp
 MOST_BYTES = 1 << 28  # a longer file is not one of these
 

@@ -151,6 +151,10 @@ def _plan_goal(
     grasps = Grasps(work, options, report)
     regrasp = Regrasp(work, options, lambda: respect(stop_at))
     carry = tries.reach_any(grasps.first(elsewhere=regrasp.is_needed)) or regrasp.run(0)
+    if carry is None and regrasp.was_needed:
+        # The tables are samples: what they have not may be found where all is looked at.
+        grasps = Grasps(work, options, report)
+        carry = tries.reach_any(grasps.first())
     for round_ in range(1, len(options.sampling_rounds)):
         carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
         carry = carry or regrasp.run(round_)

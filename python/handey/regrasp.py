@@ -27,7 +27,7 @@ from handey.report import GoalReport
 __all__ = ["Regrasp"]
 
 # Choice: grasps of the tables: on faces, on faces more densely, with edges and vertices.
-MOST, MOST_DENSE, MOST_BEYOND = 6000, 8000, 4000
+MOST, MOST_DENSE, MOST_BEYOND = 6000, 8000, 12000
 # Where the options ask for no denser passes: 5 degrees and 8 mm.
 DENSE = _core.LegalityOptions(directions=72, spacing=0.008)
 TRIED = ("placements looked at", "regrasp sequences tried", "approached")  # counts of all searches
@@ -53,6 +53,11 @@ class Regrasp:
     _searches: dict[bool, RegraspSearch] = field(default_factory=dict)
     _needed: bool | None = None
     _next: int = 0  # round that was not run yet
+
+    @property
+    def was_needed(self) -> bool:
+        """Was it asked whether step 7 is needed, and found so?"""
+        return bool(self._needed)
 
     def is_needed(self) -> bool:
         """Is there no grasp, of many, that is legal at both ends?"""

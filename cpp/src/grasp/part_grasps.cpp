@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kDirectionBins = 24;  // every direction keeps its best
+constexpr int kMostDrawnBack = 4;   // candidates of one target and direction
 // As little as legality lets the jaws open, in shares of its open clearance.
 constexpr double kLeastOpen = 0.25;
 
@@ -100,16 +101,18 @@ std::vector<PartGrasp> sample_part_grasps(const Body& part,
   const grasp::Hold hold(part, options.legality);
   const Gripper& gripper = robot->gripper;
   const int pairs = std::max<int>(1, static_cast<int>(ranking.ranked.size()));
-  const int most_per_bin = std::max(1, options.most / (2 * kDirectionBins * pairs));
+  // Where a thin part lies flat, only pads drawn back have room: all of a target's stay together.
+  const std::size_t groups_per_bin = static_cast<std::size_t>(
+      std::max(1, options.most / (2 * kDirectionBins * pairs * kMostDrawnBack)));
   std::vector<PartGrasp> grasps;
   for (const RankedPair& pair : ranking.ranked) {
     const grasp::ContactDemand demand = grasp::contact_demand(pair, gripper, options.legality);
     const grasp::CandidateList list = grasp::make_candidates(pair, *robot, Eigen::Vector2d::Zero(),
                                                              demand, hold, options.legality);
-    std::map<int, int> in_bin;
+    std::map<int, std::set<int>> in_bin;
     for (const grasp::Candidate& candidate : list.candidates) {
-      if (in_bin[bin_of(candidate.pose.theta)] >= most_per_bin) continue;
-      bool kept = false;
+      std::set<int>& groups = in_bin[bin_of(candidate.pose.theta)];
+      if (groups.size() >= groups_per_bin && groups.count(candidate.group) == 0) continue;
       for (const bool flipped : {false, true}) {
         PartGrasp grasp;
         grasp.a = pair.pair.a;
@@ -122,10 +125,9 @@ std::vector<PartGrasp> sample_part_grasps(const Body& part,
         grasp.merit = candidate.promise - 0.05;
         const double opening = opening_of(gripper, grasp.width, options.legality);
         if (!hand.is_clear(grasp.X_PH, opening, options.legality.clearance)) continue;
-        kept = true;
+        groups.insert(candidate.group);
         grasps.push_back(grasp);
       }
-      if (kept) ++in_bin[bin_of(candidate.pose.theta)];
     }
   }
   return grasps;

@@ -59,12 +59,12 @@ TEST(PartGrasps, NoneHasTheHandInThePart) {
   }
 }
 
-TEST(PartGrasps, NoMoreThanAskedForAndEveryDirectionKeepsSome) {
+TEST(PartGrasps, FewerWhereFewerAreAskedForAndEveryDirectionKeepsSome) {
   const Body block = block_on_bench().parts.front();
   PartGraspOptions options;
   options.most = 600;
   const std::vector<PartGrasp> grasps = sample_part_grasps(block, load_puma(), options);
-  EXPECT_LE(grasps.size(), 600u);
+  EXPECT_LT(2 * grasps.size(), sample_part_grasps(block, load_puma()).size());
   std::set<int> directions;
   for (const PartGrasp& grasp : grasps) {
     directions.insert(static_cast<int>(std::lround(grasp.in_plane.theta * 4.0 / 3.14159265)));

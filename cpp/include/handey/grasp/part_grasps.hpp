@@ -28,7 +28,9 @@ struct PartGrasp {
 struct PartGraspOptions {
   RankingOptions ranking;
   LegalityOptions legality;  ///< directions, spacing, contact, hold and clearances count
-  int most = 6000;           ///< grasps, shared evenly by pairs and directions
+  /// Grasps, shared evenly by pairs and directions; more only where else a direction of a pair
+  /// would have none.
+  int most = 6000;
 };
 
 /// The pairs of a part that stands alone: obstructed by its own protrusions only.
