@@ -422,7 +422,7 @@ Raises:
       .def_property_readonly("is_done", &LegalGraspSearch::is_done,
                              "No candidate is left, or enough are legal.")
       .def("next", &LegalGraspSearch::next, "candidates"_a, Unlocked(),
-           R"(Test so many candidates more, at most, each with both half-turns of the hand.
+           R"(Look at so many candidates more, at most, each with both half-turns of the hand.
 
 Args:
     candidates: at least 1.

@@ -2346,7 +2346,7 @@ class LegalGraspSearch:
     ) -> None: ...
     def next(self, candidates: typing.SupportsInt | typing.SupportsIndex) -> list[GraspPose]:
         """
-        Test so many candidates more, at most, each with both half-turns of the hand.
+        Look at so many candidates more, at most, each with both half-turns of the hand.
 
         Args:
             candidates: at least 1.

@@ -105,25 +105,6 @@ bool is_blocked(const RankedPair& pair, const PlanarPose& pose, const FingerExte
   return pad_contact_area(pair.blocked, middle, footprint) > 1e-9;
 }
 
-// Mixes the candidates of a list that is sorted, those with blocked fingers still last: the
-// multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
-void spread(std::vector<Candidate>& candidates) {
-  constexpr double kGolden = 0.6180339887498949;
-  const auto blocked = std::find_if(candidates.begin(), candidates.end(),
-                                    [](const Candidate& c) { return c.promise < 0.0; });
-  for (const auto& [first, last] :
-       {std::pair(candidates.begin(), blocked), std::pair(blocked, candidates.end())}) {
-    std::vector<std::pair<double, Candidate>> keyed;
-    double whole = 0.0;
-    for (auto it = first; it != last; ++it) {
-      keyed.emplace_back(std::modf(kGolden * static_cast<double>(it - first), &whole), *it);
-    }
-    std::stable_sort(keyed.begin(), keyed.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::transform(keyed.begin(), keyed.end(), first, [](const auto& k) { return k.second; });
-  }
-}
-
 }  // namespace
 
 ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
@@ -169,59 +150,73 @@ double planar_merit(const RankedPair& pair, const Gripper& gripper, const Planar
          (along_edge ? 0.10 : 0.0);
 }
 
+CandidateMaker::CandidateMaker(const RankedPair& pair, const Robot& robot,
+                               const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
+                               const Hold& hold, const LegalityOptions& options)
+    : pair_(pair),
+      gripper_(robot.gripper),
+      down_in_G_(down_in_G),
+      demand_(demand),
+      hold_(hold),
+      finger_(finger_extent(robot)),
+      directions_(approach_directions(pair, options.directions)) {
+  for (const double theta : directions_) along_edge_.push_back(is_along_edge(pair, theta) ? 1 : 0);
+  Places places = places_of(pair, gripper_, options.spacing);
+  places_ = std::move(places.points);
+  targets_ = places.targets;
+}
+
+void CandidateMaker::make(std::size_t slot, CandidateList& list) {
+  const std::size_t place = slot / directions_.size(), turn = slot % directions_.size();
+  const Eigen::Vector2d& target = places_[place];
+  const double theta = directions_[turn];
+  for (const double share : kDrawnBack) {
+    if (share > 0.0 && place >= targets_) break;  // the lattice has these poses
+    const double back = share * gripper_.pad_length;
+    Candidate candidate;
+    candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
+                      theta};
+    candidate.along_edge = along_edge_[turn] != 0;
+    candidate.group = static_cast<int>(slot);
+    if (!add(candidate, share == 0.0, list) && share > 0.0) break;
+  }
+}
+
+bool CandidateMaker::add(const Candidate& drawn_back, bool is_first, CandidateList& list) {
+  Candidate candidate = drawn_back;
+  const PadContact contact = pad_contact(pair_, candidate.pose, gripper_);
+  candidate.contact_area = contact.area;
+  if (!demand_.is_met(contact)) {
+    // Drawn back until the contact is gone: not one more way that failed.
+    if (is_first) ++list.too_little_contact;
+    return false;
+  }
+  const double excess = hold_.excess(pair_, contact);
+  if (excess > 0.0) {
+    if (list.would_turn++ == 0 || excess < least_excess_) {
+      least_excess_ = excess;
+      list.turn_reason = hold_.reason(pair_, contact);
+    }
+    return true;
+  }
+  candidate.promise = planar_merit(pair_, gripper_, candidate.pose, candidate.contact_area,
+                                   candidate.along_edge, down_in_G_, demand_);
+  // Choice: a pose whose fingers seem blocked is kept (the blocked region errs on the large
+  // side) but comes after all the others.
+  if (is_blocked(pair_, candidate.pose, finger_, gripper_)) candidate.promise -= 1.0;
+  list.candidates.push_back(candidate);
+  return true;
+}
+
 CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
                               const Eigen::Vector2d& down_in_G, const ContactDemand& demand,
                               const Hold& hold, const LegalityOptions& options) {
-  const Gripper& gripper = robot.gripper;
-  const FingerExtent finger = finger_extent(robot);
   CandidateList list;
-  const std::vector<double> directions = approach_directions(pair, options.directions);
-  int group = 0;
-  double least_excess = 0.0;
-  const Places places = places_of(pair, gripper, options.spacing);
-  for (std::size_t i = 0; i < places.points.size(); ++i) {
-    const Eigen::Vector2d& target = places.points[i];
-    for (const double theta : directions) {
-      const bool along_edge = is_along_edge(pair, theta);
-      for (const double share : kDrawnBack) {
-        if (share > 0.0 && i >= places.targets) break;  // the lattice has these poses
-        const double back = share * gripper.pad_length;
-        Candidate candidate;
-        candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
-                          theta};
-        const PadContact contact = pad_contact(pair, candidate.pose, gripper);
-        candidate.contact_area = contact.area;
-        const bool has_contact = demand.is_met(contact);
-        // Drawn back until the contact is gone: not one more way that failed.
-        if (!has_contact && share > 0.0) break;
-        if (!has_contact) {
-          ++list.too_little_contact;
-          continue;
-        }
-        const double excess = hold.excess(pair, contact);
-        if (excess > 0.0) {
-          if (list.would_turn++ == 0 || excess < least_excess) {
-            least_excess = excess;
-            list.turn_reason = hold.reason(pair, contact);
-          }
-          continue;
-        }
-        candidate.along_edge = along_edge;
-        candidate.group = group;
-        candidate.promise = planar_merit(pair, gripper, candidate.pose, candidate.contact_area,
-                                         along_edge, down_in_G, demand);
-        // Choice: a pose whose fingers seem blocked is kept (the blocked region errs on the large
-        // side) but comes after all the others.
-        if (is_blocked(pair, candidate.pose, finger, gripper)) candidate.promise -= 1.0;
-        list.candidates.push_back(candidate);
-      }
-      ++group;
-    }
-  }
+  CandidateMaker maker(pair, robot, down_in_G, demand, hold, options);
+  for (std::size_t slot = 0; slot < maker.slots(); ++slot) maker.make(slot, list);
   std::stable_sort(
       list.candidates.begin(), list.candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.promise > b.promise + 1e-12; });
-  if (options.spread) spread(list.candidates);
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "handey/grasp/legality.hpp"
+#include "obstruction.hpp"
 #include "pad_contact.hpp"
 
 namespace handey::grasp {
@@ -35,6 +36,34 @@ struct CandidateList {
   std::string turn_reason;     ///< of the one that misses least
 };
 
+/// Makes candidates slot by slot: a slot is a place for the pads and a direction of the hand.
+class CandidateMaker {
+ public:
+  /// Keeps references to all but the options.
+  CandidateMaker(const RankedPair& pair, const Robot& robot, const Eigen::Vector2d& down_in_G,
+                 const ContactDemand& demand, const Hold& hold, const LegalityOptions& options);
+  std::size_t slots() const { return places_.size() * directions_.size(); }
+  /// Adds the slot's candidates to the list, or counts why it has none.
+  void make(std::size_t slot, CandidateList& list);
+
+ private:
+  /// Adds a candidate. @return false if it has too little contact
+  bool add(const Candidate& drawn_back, bool is_first, CandidateList& list);
+
+  const RankedPair& pair_;
+  const Gripper& gripper_;
+  const Eigen::Vector2d& down_in_G_;
+  const ContactDemand& demand_;
+  const Hold& hold_;
+  FingerExtent finger_;
+  std::vector<double> directions_;
+  std::vector<char> along_edge_;  ///< per direction
+  std::vector<Eigen::Vector2d> places_;
+  std::size_t targets_ = 0;  ///< the first of the places
+  double least_excess_ = 0.0;
+};
+
+/// All of them, most promising first.
 /// @param down_in_G  mean over both ends of the world's downward direction in G: the approach from
 /// above
 CandidateList make_candidates(const RankedPair& pair, const Robot& robot,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "candidates.hpp"
@@ -116,24 +117,63 @@ struct LegalGraspSearch::Impl {
         options(options_in),
         down(down_in_plane(scene, pair)),
         demand(grasp::contact_demand(pair, scene.cell.robot->gripper, options)),
+        hold(part_of(scene), options),
+        maker(pair, *scene.cell.robot, down, demand, hold, options),
         tester(scene, solver, options) {
-    const grasp::Hold hold(part_of(scene), options);
+    if (options.spread) return;
     list = grasp::make_candidates(pair, *scene.cell.robot, down, demand, hold, options);
-    // Contact and hold do not depend on the hand's half-turn.
-    result.too_little_contact = list.too_little_contact;
-    result.would_turn = list.would_turn;
-    result.tried = list.too_little_contact + list.would_turn;
-    for (int i = 0; i < list.too_little_contact; ++i) {
-      tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
-    }
-    for (int i = 0; i < list.would_turn; ++i) {
-      tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
-    }
+    slot = maker.slots();
+    count_fallen(0, 0);
   }
 
   bool is_done() const {
-    return at == list.candidates.size() ||
+    return (slot == maker.slots() && at == list.candidates.size()) ||
            static_cast<int>(result.poses.size()) >= options.most_poses;
+  }
+
+  // The next candidates: of those that are made already, or of a slot.
+  void look() {
+    if (slot == maker.slots()) {
+      test(list.candidates[at++]);
+      return;
+    }
+    const int contact = list.too_little_contact, turn = list.would_turn;
+    const std::size_t first = list.candidates.size();
+    // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+    maker.make(slot++ * stride() % maker.slots(), list);
+    count_fallen(contact, turn);
+    // What seems blocked waits in the list until the end.
+    const auto waiting = std::stable_partition(
+        list.candidates.begin() + static_cast<std::ptrdiff_t>(first), list.candidates.end(),
+        [](const grasp::Candidate& candidate) { return candidate.promise < 0.0; });
+    const std::vector<grasp::Candidate> now(waiting, list.candidates.end());
+    list.candidates.erase(waiting, list.candidates.end());
+    for (const grasp::Candidate& candidate : now) test(candidate);
+  }
+
+  // About the golden ratio of the slots, with no divisor in common with their number.
+  std::size_t stride() const {
+    std::size_t step = std::max<std::size_t>(
+        1, static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(maker.slots())));
+    while (std::gcd(step, maker.slots()) != 1) ++step;
+    return step;
+  }
+
+  // Contact and hold do not depend on the hand's half-turn.
+  void count_fallen(int contact_before, int turn_before) {
+    const int contact = list.too_little_contact - contact_before;
+    const int turn = list.would_turn - turn_before;
+    result.too_little_contact += contact;
+    result.would_turn += turn;
+    result.tried += contact + turn;
+    for (int i = 0; i < contact; ++i) {
+      tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
+    }
+    for (int i = 0; i < turn; ++i) tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
+  }
+
+  void test(const grasp::Candidate& candidate) {
+    for (const bool flipped : {false, true}) test(candidate, flipped);
   }
 
   void test(const grasp::Candidate& candidate, bool flipped) {
@@ -159,11 +199,15 @@ struct LegalGraspSearch::Impl {
   const LegalityOptions options;
   const Eigen::Vector2d down;
   const grasp::ContactDemand demand;
+  const grasp::Hold hold;
+  grasp::CandidateMaker maker;
+  std::size_t slot = 0;  ///< slots looked at, in their mixed order
+  /// Candidates to test: all, or with `spread` those of the slots looked at that seem blocked.
   grasp::CandidateList list;
+  std::size_t at = 0;  ///< candidates of the list that are tested
   grasp::PoseTester tester;
   grasp::Tally tally;
   std::set<std::pair<int, bool>> found;
-  std::size_t at = 0;
   LegalGrasps result;  ///< poses in the order found
 };
 
@@ -181,10 +225,7 @@ bool LegalGraspSearch::is_done() const { return impl_->is_done(); }
 std::vector<GraspPose> LegalGraspSearch::next(int candidates) {
   grasp::require_in_range(candidates, 1, std::numeric_limits<int>::max(), "candidates");
   const std::size_t known = impl_->result.poses.size();
-  for (int i = 0; i < candidates && !impl_->is_done(); ++i) {
-    const grasp::Candidate& candidate = impl_->list.candidates[impl_->at++];
-    for (const bool flipped : {false, true}) impl_->test(candidate, flipped);
-  }
+  for (int i = 0; i < candidates && !impl_->is_done(); ++i) impl_->look();
   const auto fresh = impl_->result.poses.begin() + static_cast<std::ptrdiff_t>(known);
   return best_first({fresh, impl_->result.poses.end()});
 }

@@ -94,7 +94,8 @@ class LegalGraspSearch {
 
   /// No candidate is left, or enough are legal.
   bool is_done() const;
-  /// Tests so many candidates more, at most, each with both half-turns of the hand.
+  /// Looks at so many candidates more, at most, each with both half-turns of the hand. With
+  /// `spread`, at so many places and directions.
   /// @return the legal ones of these, best merit first
   std::vector<GraspPose> next(int candidates);
   /// What came of all candidates so far.
