@@ -21,7 +21,8 @@ __all__ = ["Grasps", "describe"]
 
 Grasp = tuple[_core.RankedPair, _core.GraspPose]
 DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs of a kind, the best
-PORTION = 200  # Choice: candidates of one pair tested before the next pair has its turn
+PORTION = 400  # Choice: candidates of one pair looked at before the next pair has its turn
+QUICK = 2  # Choice: turns of each pair in the quick look before anything costlier is asked
 # A hand pose: its pair, place and direction in the grasp plane, half-turn.
 _PoseKey = tuple[str, float, float, float, bool]
 
@@ -76,23 +77,23 @@ class Grasps:
         """All pairs, two faces first; in denser passes as long as none could be approached.
 
         Args:
-            elsewhere: asked where a first look finds no legal pose; the stream ends there if true.
+            elsewhere: asked where a quick look, a denser one too, finds no legal pose; the stream
+                ends there if true.
         """
         while self._kinds:
             kind = self._kinds.pop(0)
             yield from self._of_kind(kind)
-            if not self._report.funnel.get("legal grasp poses") and elsewhere():
-                return
             # Faces once more, before others are looked at.
-            if kind == _core.PairChoice.TwoFaces and self._denser and not self._approached():
+            if self._denser and self._denser[0][0] == kind and not self._approached():
                 self._begin(*self._denser.pop(0))
-                yield from self._by_turns(self._approached)
-        while self._denser and not self._approached():
-            kind, legality = self._denser.pop(0)
-            self._begin(kind, legality)
-            while self._denser and self._denser[0][1] is legality:
+                yield from self._by_turns(self._approached, 1)
+        if not self._approached():
+            while self._denser:
                 self._begin(*self._denser.pop(0))
-            yield from self._by_turns(self._approached)
+            yield from self._by_turns(self._approached, QUICK)
+        if not self._report.funnel.get("legal grasp poses") and elsewhere():
+            return
+        yield from self._by_turns(self._approached)
 
     def rest(self) -> Iterator[Grasp]:
         """What was spared, because a grasp could be approached or the first stream ended early."""
@@ -120,9 +121,11 @@ class Grasps:
             self._narrow[kind] = _rank(self._work, wanted, kind, least).ranked[:DENSER_PAIRS]
         self._turns += [_Turn(pair, legality) for pair in self._narrow[kind]]
 
-    def _by_turns(self, enough: Callable[[], bool]) -> Iterator[Grasp]:
-        """Go on with what was begun, some candidates of each pair in turn."""
-        while self._turns and not enough():
+    def _by_turns(self, enough: Callable[[], bool], most: int | None = None) -> Iterator[Grasp]:
+        """Go on with what was begun, some candidates of each pair in turn, `most` times at most."""
+        left = None if most is None else most * len(self._turns)
+        while self._turns and left != 0 and not enough():
+            left = None if left is None else left - 1
             turn, work = self._turns.popleft(), self._work
             with work.clock("legal grasps"):
                 if turn.search is None:
