@@ -3,7 +3,7 @@
 Asked for when a first look at the faces finds no grasp that is legal at both ends. A table of many
 more grasps, with edges and vertices, then tells whether any is: if so, the direct search goes on.
 If not, the search for sequences begins: fewest regrasps first, at each number with grasps on faces
-before the others.
+before the others; densely sampled grasps come last.
 Not guaranteed: the number of regrasps is least over the grasps and places looked at. Article:
 "Regrasping".
 """
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from enum import Enum
 from functools import cached_property
 
 import numpy as np
@@ -35,6 +36,14 @@ TRIED = ("placements looked at", "regrasp sequences tried", "approached")  # cou
 STAGES = ("approach", "depart", "deposit", "withdraw", "transit", "transfer", "home", "done")
 
 
+class _Tier(Enum):
+    """Which grasps are searched with: on faces, with edges and vertices too, on faces densely."""
+
+    Faces = 0
+    Beyond = 1
+    Dense = 2
+
+
 @dataclass
 class Regrasp:
     """Step 7 for one goal; its tables are read when they are asked for.
@@ -50,7 +59,7 @@ class Regrasp:
     options: PlanOptions
     respect: Callable[[], None]
     words: str = ""
-    _searches: dict[bool, RegraspSearch] = field(default_factory=dict)
+    _searches: dict[_Tier, RegraspSearch] = field(default_factory=dict)
     _needed: bool | None = None
     _next: int = 0  # round that was not run yet
 
@@ -80,15 +89,16 @@ class Regrasp:
             search.forgive()
         sequences = self.options.regrasp.sequences
         left = sequences[min(round_, len(sequences) - 1)]
-        for regrasps in range(1, self.options.regrasp.most_regrasps + 1):
-            for beyond in self._tiers:
-                search = self._search(beyond)
-                before = search.tried
-                carry = search.run(regrasps, direct, left)
-                left -= search.tried - before
-                if carry is not None:
-                    self.words = search.words
-                    return carry
+        for tiers in self._tiers:
+            for regrasps in range(1, self.options.regrasp.most_regrasps + 1):
+                for tier in tiers:
+                    search = self._search(tier)
+                    before = search.tried
+                    carry = search.run(regrasps, direct, left)
+                    left -= search.tried - before
+                    if carry is not None:
+                        self.words = search.words
+                        return carry
         return None
 
     def tell(self, report: GoalReport) -> None:
@@ -122,21 +132,35 @@ class Regrasp:
         return [f"no place on the way joins the grasps of both ends by up to {most} regrasps"]
 
     @property
-    def _tiers(self) -> tuple[bool, ...]:
-        """Without and with edges and vertices, as the options allow."""
+    def _tiers(self) -> tuple[tuple[_Tier, ...], ...]:
+        """Grasps to search with, by turns for each number of regrasps, then the next of these."""
         choice, kinds = self.options.ranking.pairs, _core.PairChoice
-        return {kinds.TwoFaces: (False,), kinds.BeyondFaces: (True,)}.get(choice, (False, True))
+        if choice == kinds.BeyondFaces:
+            return ((_Tier.Beyond,),)
+        first = (_Tier.Faces,) if choice == kinds.TwoFaces else (_Tier.Faces, _Tier.Beyond)
+        return (first, (_Tier.Dense,)) if self.options.denser else (first,)
 
-    def _search(self, beyond: bool) -> RegraspSearch:
-        if beyond not in self._searches:
-            if self.options.ranking.pairs == _core.PairChoice.BeyondFaces:
-                table = self._beyond
-            else:
-                table = joined(self._faces, self._beyond) if beyond else self._faces
-            self._searches[beyond] = RegraspSearch(
-                self.work, table, self.options.regrasp, self.options.seed, self.respect
+    def _search(self, tier: _Tier) -> RegraspSearch:
+        if tier not in self._searches:
+            self._searches[tier] = RegraspSearch(
+                self.work,
+                self._table_of(tier),
+                self.options.regrasp,
+                self.options.seed,
+                self.respect,
             )
-        return self._searches[beyond]
+        return self._searches[tier]
+
+    def _table_of(self, tier: _Tier) -> GraspTable:
+        choice, kinds = self.options.ranking.pairs, _core.PairChoice
+        if choice == kinds.BeyondFaces:
+            return self._beyond
+        if tier == _Tier.Faces:
+            return self._faces
+        faces = self._faces
+        if tier == _Tier.Dense:
+            faces = self._table(kinds.TwoFaces, self.options.denser[-1], MOST_DENSE)
+        return faces if choice == kinds.TwoFaces else joined(faces, self._beyond)
 
     def _has_common(self, table: GraspTable) -> bool:
         """Is a grasp of the table legal at both ends?"""
