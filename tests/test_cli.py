@@ -393,3 +393,9 @@ def test_help_needs_no_heavy_imports():
         timeout=60,
     )
     assert done.stdout.splitlines()[-1] == "[]", done.stderr
+
+
+def test_the_package_itself_can_be_run():
+    command = [sys.executable, "-m", "handey", "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == f"handey {handey.__version__}"
