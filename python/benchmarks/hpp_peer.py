@@ -35,6 +35,7 @@ PLAY = 0.0005  # between the block and the table: HPP calls bodies that touch in
 ROOM = 1.0  # above the table in which the block may be [m]
 CHORD = 0.01  # a row is told between two others where the path leaves their chord by more [rad]
 GOOD = 1e-4  # of HPP's projections
+MARGIN = 1e-4  # at which HPP's placements hover over the table, its default [m]
 
 
 def quaternion(turn: np.ndarray) -> list[float]:
@@ -220,7 +221,7 @@ class Peer:
     def configuration(self, pose: Any) -> np.ndarray:
         """The arm at home, the block at a pose on the table."""
         matrix = np.asarray(pose, dtype=float)
-        block = [*matrix[:3, 3], *quaternion(matrix[:3, :3])]
+        block = [*(matrix[:3, 3] + [0, 0, MARGIN]), *quaternion(matrix[:3, :3])]
         free = self.graph.getState("free")
         found, q, _ = self.graph.applyStateConstraints(
             free, np.array([*self.given["home"], *block])
