@@ -10,9 +10,9 @@ gripper, each [is the block held, rows of arm positions].
 
 What HPP asks of its user is typed below: the gripper and the handles, which faces may touch the
 table, what never collides. Handles that leave the turn about the closing axis open would serve all
-grasps at once, but with them the block was never turned over within 30 s; nor do the grasps
-straight down and level help. So the hand is tilted by 45 degrees to the block's faces. HPP moves no
-fingers: they stand wide open throughout, and the block hangs between them, untouched.
+grasps at once, but with them the block was not turned over within 30 s. So the hand is tilted by 45
+degrees to the block's faces, eight ways: of the sets tried the fastest. HPP moves no fingers: they
+stand wide open throughout, and the block hangs between them, untouched.
 """
 
 from __future__ import annotations
