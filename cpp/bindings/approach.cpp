@@ -10,6 +10,7 @@
 #include "handey/grasp/ranking.hpp"
 #include "handey/kinematics/arm.hpp"
 #include "handey/kinematics/spherical_wrist.hpp"
+#include "interruptible.hpp"
 
 namespace handey::bindings {
 namespace {
@@ -101,7 +102,7 @@ void bind_plan_approach(py::module_& m) {
       [](const GraspScene& scene, const SphericalWristSolver& solver, const RankedPair& pair,
          const GraspPose& aim, const py::object& q_pick, const ApproachOptions& options) {
         const Eigen::VectorXd q = joint_vector(q_pick, "q_pick");
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return plan_approach(scene, solver, pair, aim, q, options);
       },
       "scene"_a, "solver"_a, "pair"_a, "aim"_a, "q_pick"_a, "options"_a = defaults,
@@ -135,8 +136,7 @@ void bind_joined_destination(py::module_& m) {
       .def(
           "checker", [](const JoinedScene& joined) { return make_checker(joined); },
           "A CollisionChecker of that cell in which the hand alone is kept apart from the copies.");
-  m.def("join_destination", &join_destination, py::call_guard<py::gil_scoped_release>(), "scene"_a,
-        "radius"_a = 0.4,
+  m.def("join_destination", &join_destination, Unlocked(), "scene"_a, "radius"_a = 0.4,
         R"(The article's obstacles: those near the destination, moved by T^-1, join the origin's.
 
 Args:

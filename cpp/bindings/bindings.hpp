@@ -11,6 +11,7 @@
 
 namespace handey::bindings {
 
+void bind_stop(pybind11::module_& m);
 void bind_geometry(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 void bind_world(pybind11::module_& m);

@@ -7,13 +7,12 @@
 #include "handey/collision/checker.hpp"
 #include "handey/collision/solids.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
 namespace handey::bindings {
 namespace {
-
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 void bind_model(py::module_& m) {
   py::class_<CollisionModel, std::shared_ptr<CollisionModel>>(

@@ -27,6 +27,7 @@ PYBIND11_MODULE(_core, m) {
   py::register_exception_translator(&translate_invalid_input);
   using namespace handey::bindings;
   // Floors, lowest first.
+  bind_stop(m);
   bind_geometry(m);
   bind_kinematics(m);
   bind_world(m);

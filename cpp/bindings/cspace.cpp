@@ -16,13 +16,13 @@
 #include "handey/geometry/polygon.hpp"
 #include "handey/kinematics/arm.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
 namespace handey::bindings {
 namespace {
 
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 std::vector<Polygon> polygons_from(const py::iterable& polygons, const std::string& place) {

@@ -7,6 +7,7 @@
 #include "handey/collision/checker.hpp"
 #include "handey/kinematics/arm.hpp"
 #include "handey/kinematics/spherical_wrist.hpp"
+#include "interruptible.hpp"
 
 namespace handey::bindings {
 namespace {
@@ -47,7 +48,7 @@ void bind_retreat(py::module_& m) {
       [](CollisionChecker& in_contact, CollisionChecker& clear, const SphericalWristSolver& solver,
          const Configuration& start, const py::object& direction, const RetreatOptions& options) {
         const Eigen::Vector3d along = real_vector<3>(direction, "direction");
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return plan_retreat(in_contact, clear, solver, start, along, options);
       },
       "in_contact"_a, "clear"_a, "solver"_a, "start"_a, "direction"_a, "options"_a = defaults,
@@ -88,8 +89,7 @@ void bind_plan_departure(py::module_& m) {
            "search"_a = defaults.search, "search_levels"_a = defaults.search_levels,
            "certificate"_a = defaults.certificate)
       .def_readwrite("cell", &DepartureOptions::cell, "Of grid and lattice [m].")
-      .def_readwrite("least", &DepartureOptions::least,
-                     "It ends no nearer to its start [m].")
+      .def_readwrite("least", &DepartureOptions::least, "It ends no nearer to its start [m].")
       .def_readwrite("most", &DepartureOptions::most,
                      "Out is that far from the start; it may then end before [m].")
       .def_readwrite("clearance", &DepartureOptions::clearance,
@@ -117,8 +117,8 @@ void bind_plan_departure(py::module_& m) {
                     "It ends where DepartureOptions.room is free; false if that was not asked.")
       .def_readonly("reason", &DepartureResult::reason, "Why not found, with names and numbers.")
       .def("__bool__", [](const DepartureResult& result) { return result.found; });
-  m.def("plan_departure", &plan_departure, py::call_guard<py::gil_scoped_release>(), "checker"_a,
-        "solver"_a, "start"_a, "options"_a = defaults,
+  m.def("plan_departure", &plan_departure, Unlocked(), "checker"_a, "solver"_a, "start"_a,
+        "options"_a = defaults,
         R"(The way out in the grasp plane, for a hand that holds a part or is open round one.
 
 The planners of the approach with the held part as part of the hand: the slide in from where there is room,

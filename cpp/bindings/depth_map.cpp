@@ -11,6 +11,7 @@
 #include "configurations.hpp"
 #include "handey/collision/checker.hpp"
 #include "handey/world/body.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -214,7 +215,7 @@ void bind_depth_map(py::module_& m) {
   bind_maps(m);
   bind_options(m);
   m.def("cover_heights", &cover_heights, py::arg("name"), py::arg("map"),
-        py::arg("options") = DepthMapOptions(), py::call_guard<py::gil_scoped_release>(),
+        py::arg("options") = DepthMapOptions(), Unlocked(),
         R"(A height map as a fixture of few convex solids that contain it.
 
 Args:
@@ -229,7 +230,7 @@ Returns:
       [](const DepthImage& image, const Cell& cell) {
         std::vector<char> found;
         {
-          const py::gil_scoped_release release;
+          const Unlock unlock;
           found = explained_pixels(image, cell);
         }
         py::array_t<bool> result({image.rows, image.columns});
@@ -250,7 +251,7 @@ Returns:
       [](const std::string& name, const DepthImage& image, const py::object& explained,
          const DepthMapOptions& options) {
         const std::vector<char> mask = flags(explained, image);
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return cover_depths(name, image, mask, options);
       },
       py::arg("name"), py::arg("image"), py::arg("explained") = py::none(),

@@ -10,6 +10,7 @@
 #include "handey/cspace/search.hpp"
 #include "handey/cspace/slice.hpp"
 #include "handey/kinematics/arm.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -91,7 +92,7 @@ void bind_free_space(py::module_& m) {
         return search_free_space(space, options);
       },
       "checker"_a, "start"_a, "goals"_a, "slices"_a = FreeSpaceOptions(),
-      "options"_a = SearchOptions(), py::call_guard<py::gil_scoped_release>(),
+      "options"_a = SearchOptions(), Unlocked(),
       R"(Search the slices of a gross motion for a way: not shortened yet.
 
 Args:

@@ -13,6 +13,7 @@
 #include "handey/geometry/polyhedron.hpp"
 #include "handey/geometry/section.hpp"
 #include "handey/geometry/shape.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -233,7 +234,7 @@ void bind_planar_faces(py::module_& m) {
       },
       py::arg("mesh"), py::kw_only(), py::arg("angle") = defaults.angle,
       py::arg("distance") = defaults.distance, py::arg("least_area") = defaults.least_area,
-      py::call_guard<py::gil_scoped_release>(),
+      Unlocked(),
       R"(The planar faces of a solid, largest first.
 
 Args:
@@ -302,7 +303,7 @@ Args:
       "slab_projection",
       [](const Shape& shape, const py::object& X_GB, double lower, double upper) {
         const Pose pose_in_plane = real_pose(X_GB, "X_GB");
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return slab_projection(shape, pose_in_plane, lower, upper);
       },
       py::arg("shape"), py::arg("X_GB"), py::arg("lower"), py::arg("upper"),
@@ -343,7 +344,7 @@ void bind_mesh_files(py::module_& m) {
           options.scale[k] = values.data()[values.size() == 1 ? 0 : k];
         options.must_be_closed = must_be_closed;
         options.greatest_size = greatest_size;
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return load_mesh(path.string(), options);
       },
       py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("must_be_closed") = false,

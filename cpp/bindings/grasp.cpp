@@ -11,13 +11,13 @@
 #include "handey/kinematics/gripper.hpp"
 #include "handey/world/body.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace handey::bindings {
 namespace {
 
 namespace py = pybind11;
 using namespace py::literals;
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 void bind_planar_pose(py::module_& m) {
   py::class_<PlanarPose>(m, "PlanarPose", R"(Position and direction of the hand in the grasp plane.
@@ -290,7 +290,7 @@ void bind_ranking_types(py::module_& m) {
 Ranking rank(const Cell& cell, int part, const py::object& X_WP_goal, const RankingOptions& options,
              const FeaturePairs* features) {
   const Pose goal = real_pose(X_WP_goal, "X_WP_goal");
-  const py::gil_scoped_release unlocked;
+  const Unlock unlock;
   return features != nullptr ? rank_grasps(cell, part, goal, *features, options)
                              : rank_grasps(cell, part, goal, options);
 }

@@ -9,6 +9,7 @@
 #include "handey/kinematics/spherical_wrist.hpp"
 #include "handey/kinematics/urdf.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -203,8 +204,8 @@ Args:
           "robot", [](const LoadedRobot& self) { return std::make_shared<Robot>(self.robot); },
           "A copy.")
       .def_readonly("warnings", &LoadedRobot::warnings, "What was taken otherwise than written.");
-  m.def("load_robot", &load_robot, py::arg("urdf_path"), py::arg("description"),
-        py::call_guard<py::gil_scoped_release>(), R"(Reads a URDF strictly.
+  m.def("load_robot", &load_robot, py::arg("urdf_path"), py::arg("description"), Unlocked(),
+        R"(Reads a URDF strictly.
 
 Raises:
     InvalidInput: with every fault of the file and of the description's names and numbers.)");
@@ -293,7 +294,7 @@ void bind_path(py::module_& m) {
           poses.push_back(real_pose(each, "X_RH_path[" + std::to_string(poses.size()) + "]"));
         }
         const Eigen::VectorXd q = joint_vector(q_start, "q_start");
-        const py::gil_scoped_release release;
+        const Unlock unlock;
         return follow_hand_path(solver, poses, q, options);
       },
       py::arg("solver"), py::arg("X_RH_path"), py::arg("q_start"), py::arg("options") = defaults,

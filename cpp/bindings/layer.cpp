@@ -6,6 +6,7 @@
 
 #include "bindings.hpp"
 #include "handey/cspace/arm_table.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -36,8 +37,7 @@ void bind_layer(py::module_& m) {
       .def_readwrite("level", &LayerOptions::level, "Of the lattice: 3 is 1 degree.")
       .def_readwrite("clearance", &LayerOptions::clearance, "Least distance proved [m].");
   m.def("prove_layer", &prove_layer, py::arg("checker"), py::arg("theta1"), py::arg("wrist"),
-        py::arg("opening"), py::arg("options") = LayerOptions(),
-        py::call_guard<py::gil_scoped_release>(),
+        py::arg("opening"), py::arg("options") = LayerOptions(), Unlocked(),
         R"(Look at one layer of a slice: which cells are proved free, and which collide.
 
 A cell called free is free for every configuration in it and every wrist value of the range.

@@ -9,6 +9,7 @@
 #include "handey/motion/sampling.hpp"
 #include "handey/motion/shortcut.hpp"
 #include "handey/motion/timing.hpp"
+#include "interruptible.hpp"
 
 namespace handey::bindings {
 namespace {
@@ -58,8 +59,7 @@ void bind_timing(py::module_& m) {
       .def_readonly("configurations", &TimedPath::configurations, "One Configuration per time.")
       .def_property_readonly("duration", &TimedPath::duration, "Time of the last row [s].")
       .def("__len__", [](const TimedPath& timed) { return timed.time.size(); });
-  m.def("time_path", &time_path, "robot"_a, "path"_a, "options"_a = TimingOptions(),
-        py::call_guard<py::gil_scoped_release>(),
+  m.def("time_path", &time_path, "robot"_a, "path"_a, "options"_a = TimingOptions(), Unlocked(),
         R"(Time a path: the shortest time along the polyline within the limits.
 
 The rows lie exactly on the polyline, every corner is a row, the motion starts and ends at rest.
@@ -122,7 +122,7 @@ void bind_sampling(py::module_& m) {
       .def_property_readonly("found", &MotionResult::found)
       .def("__bool__", &MotionResult::found);
   m.def("plan_by_sampling", &plan_by_sampling, "checker"_a, "start"_a, "goals"_a,
-        "options"_a = SamplingOptions(), py::call_guard<py::gil_scoped_release>(),
+        "options"_a = SamplingOptions(), Unlocked(),
         R"(Plan a motion by RRT-Connect over all joints, every edge certified.
 
 Args:
@@ -154,7 +154,7 @@ void bind_shortcut(py::module_& m) {
                      "Kept where the path has it [m]; 0: no more than the certificate's.")
       .def_readwrite("certificate", &ShortcutOptions::certificate);
   m.def("shorten_path", &shorten_path, "checker"_a, "path"_a, "options"_a = ShortcutOptions(),
-        py::call_guard<py::gil_scoped_release>(),
+        Unlocked(),
         R"(Shorten a certified path; same ends, never longer, every new edge certified.
 
 A new edge keeps options.clearance from everything, except where the path itself is nearer, at its
@@ -196,7 +196,7 @@ void bind_motion(py::module_& m) {
       .def_readwrite("shortcut", &GrossOptions::shortcut);
   m.def(
       "plan_gross_motion", &plan_gross_motion, "checker"_a, "start"_a, "goals"_a,
-      "options"_a = GrossOptions(), py::call_guard<py::gil_scoped_release>(),
+      "options"_a = GrossOptions(), Unlocked(),
       R"(Plan a gross motion: straight if free, else through slices, else by sampling; then shortened.
 
 Where sampling gives no way either, a proof that there is none is tried.

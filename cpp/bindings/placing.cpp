@@ -6,13 +6,12 @@
 #include "handey/collision/standing_places.hpp"
 #include "handey/world/resting.hpp"
 #include "handey/world/support_faces.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
 namespace handey::bindings {
 namespace {
-
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 void bind_resting(py::module_& m) {
   const RestingOptions defaults;

@@ -8,13 +8,12 @@
 #include "handey/cspace/free_space.hpp"
 #include "handey/cspace/lattice.hpp"
 #include "handey/kinematics/arm.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
 namespace handey::bindings {
 namespace {
-
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 int index_within(int index, int count, const char* place) {
   if (index < 0 || index >= count) {
@@ -31,7 +30,7 @@ py::array_t<bool> blocked_cells(Slice& slice, int waist_cell) {
   const int columns = slice.lattice().cells(slice.level(), 2);
   std::vector<std::uint64_t> words;
   {
-    py::gil_scoped_release unlocked;
+    const Unlock unlock;
     words = slice.blocked(waist_cell);
   }
   py::array_t<bool> cells({rows, columns});
@@ -69,7 +68,7 @@ void bind_table(py::module_& m) {
         std::string reason;
         std::shared_ptr<ArmTable> table;
         {
-          py::gil_scoped_release unlocked;
+          const Unlock unlock;
           table = std::const_pointer_cast<ArmTable>(make_arm_table(robot, options, &reason));
         }
         return std::make_pair(table, reason);

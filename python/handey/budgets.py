@@ -1,8 +1,7 @@
-"""How long to try: the budgets of each round of attempts, and the deadline of the whole plan."""
+"""How long to try: the budgets of each round of attempts."""
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 from handey import _core
@@ -10,17 +9,12 @@ from handey.pick_and_place import DirectOptions
 from handey.plan_options import PlanOptions
 from handey.way_out import WayOutOptions
 
-__all__ = ["DeadlinePassed", "respect", "with_budget"]
-
-
-class DeadlinePassed(Exception):
-    """Raised between two attempts; never leaves the planner."""
+__all__ = ["respect", "with_budget"]
 
 
 def respect(stop_at: float | None) -> None:
-    """Raise `DeadlinePassed` once the clock `time.perf_counter` is past `stop_at` [s]."""
-    if stop_at is not None and time.perf_counter() > stop_at:
-        raise DeadlinePassed
+    """Raise `Stopped` if planning is to stop; the core knows until when it may go on."""
+    _core.throw_if_stopped()
 
 
 def with_budget(options: PlanOptions, round_: int) -> DirectOptions:

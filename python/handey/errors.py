@@ -8,8 +8,12 @@ expected.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-__all__ = ["Fault", "HandeyError", "InvalidInput"]
+if TYPE_CHECKING:
+    from handey.report import Report
+
+__all__ = ["Fault", "HandeyError", "Interrupted", "InvalidInput", "Stopped"]
 
 
 @dataclass(frozen=True)
@@ -46,3 +50,27 @@ class InvalidInput(HandeyError, ValueError):
     def __init__(self, faults: list[Fault] | Fault) -> None:
         self.faults: list[Fault] = [faults] if isinstance(faults, Fault) else list(faults)
         super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class Stopped(Exception):
+    """Raised by a stage of the core that is told to stop; `plan` answers with a report instead.
+
+    Attributes:
+        cause: "cancelled" or "deadline".
+    """
+
+    def __init__(self, cause: str) -> None:
+        self.cause = cause
+        super().__init__("the deadline passed" if cause == "deadline" else "cancelled")
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C while planning.
+
+    Attributes:
+        report: what was tried so far.
+    """
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        super().__init__()

@@ -10,16 +10,17 @@ covered. Article: "Task-level planning of pick-and-place robot motions", Handey'
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache
 
 import numpy as np
 
 from handey import _core
-from handey.budgets import DeadlinePassed, respect
+from handey.budgets import respect
 from handey.cache import table_directory
 from handey.cell_file import CellFile
-from handey.errors import Fault, InvalidInput
+from handey.errors import Fault, Interrupted, InvalidInput, Stopped
 from handey.grasps import Grasps
 from handey.jaws import is_wider_than_jaws
 from handey.moves import Hands

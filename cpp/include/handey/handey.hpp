@@ -2,6 +2,7 @@
 #pragma once
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 // geometry
 #include "handey/geometry/convex_pieces.hpp"

@@ -11,6 +11,7 @@
 
 #include "hand_mask.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 
@@ -106,6 +107,7 @@ ClearancePath Widest::search() {
   }
   const int goal = static_cast<int>(at(0, 0));
   while (!open.empty() && from[static_cast<std::size_t>(goal)] == -2) {
+    throw_if_stopped();
     const auto [narrow, length, point, before] = open.top();
     open.pop();
     if (from[static_cast<std::size_t>(point)] != -2) continue;

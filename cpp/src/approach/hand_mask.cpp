@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "handey/stop.hpp"
+
 namespace handey {
 
 namespace {
@@ -47,6 +49,7 @@ HandMasks::HandMasks(const MotionGrid& grid, const GripperOutline& outline,
   const std::size_t rows = static_cast<std::size_t>(side_);
   bits_.assign(outline.pieces.size() * kPowers * rows * words_, 0);
   for (std::size_t layer = 0; layer < outline.pieces.size(); ++layer) {
+    throw_if_stopped();
     for (int row = 0; row < side_; ++row) {
       std::uint64_t* base =
           &bits_[((layer * kPowers) * rows + static_cast<std::size_t>(row)) * words_];

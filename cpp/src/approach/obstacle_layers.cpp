@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "handey/stop.hpp"
+
 namespace handey {
 
 namespace {
@@ -50,6 +52,7 @@ ObstacleLayers::ObstacleLayers(const Cell& cell, const GripperOutline& outline, 
 
 void ObstacleLayers::add(const Body& body, const Pose& X_GB, const GripperOutline& outline) {
   for (const Shape& shape : body.shapes) {
+    throw_if_stopped();
     const Eigen::AlignedBox3d box = bounding_box(shape, X_GB);
     const Eigen::Vector2d low = box.min().head<2>() - centre_, high = box.max().head<2>() - centre_;
     if (low.maxCoeff() > half_size_ || high.minCoeff() < -half_size_) continue;
@@ -94,6 +97,7 @@ void ObstacleLayers::add_skin(const TriangleMesh& mesh, const Pose& X_GS,
 MotionGrid ObstacleLayers::draw(double cell) const {
   MotionGrid grid(centre_, half_size_, cell, static_cast<int>(layers_.size()));
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    throw_if_stopped();
     for (const Region& region : layers_[layer]) grid.fill(static_cast<int>(layer), region);
   }
   return grid;
@@ -102,6 +106,7 @@ MotionGrid ObstacleLayers::draw(double cell) const {
 MotionGrid ObstacleLayers::draw_inside(double cell) const {
   MotionGrid grid(centre_, half_size_, cell, static_cast<int>(layers_.size()));
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    throw_if_stopped();
     for (const Region& region : layers_[layer]) grid.fill_inside(static_cast<int>(layer), region);
   }
   return grid;

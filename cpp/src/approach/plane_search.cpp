@@ -14,6 +14,7 @@
 
 #include "hand_mask.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 
@@ -130,6 +131,7 @@ void PlaneSearch::classify(const MotionGrid& touched, const GripperOutline& outl
   const Eigen::Vector2d at(anchor_.x, anchor_.y);
   const HandMasks close(touched, outline, at, half_, false), blocked(full, core, at, half_, true);
   for (int k = 0; k < options_.directions; ++k) {
+    throw_if_stopped();
     const double theta = pose({0, 0, k}).theta;
     const PointMask is_close = close.at(theta), is_blocked = blocked.at(theta);
     for (int j = -half_; j <= half_; ++j) {
@@ -172,6 +174,7 @@ void PlaneSearch::spread_costs() {
   }
   Step before[kSteps];  // a step and its way back cost the same in the open
   for (int cost = 0; waiting > 0; ++cost) {
+    throw_if_stopped();
     std::vector<int> bucket;
     bucket.swap(open[static_cast<std::size_t>(cost) % buckets]);
     waiting -= bucket.size();
@@ -247,6 +250,7 @@ struct PlaneSearch::Run {
     };
     expand(first);
     while (!open.empty()) {
+      throw_if_stopped();
       if (result.tests >= search.options_.most_tests) {
         result.status = PlaneSearchStatus::TestLimit;
         break;

@@ -13,6 +13,7 @@
 
 #include "hand_on_grid.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 
@@ -260,6 +261,7 @@ SlideResult Slide::run(const PlanarPose& start) {
   std::ptrdiff_t touching_before = 0;
   result_.status = SlideStatus::IterationLimit;
   while (result_.iterations < options_.max_iterations) {
+    throw_if_stopped();
     if (distance(pose) == 0.0) {
       result_.status = SlideStatus::Reached;
       return result_;

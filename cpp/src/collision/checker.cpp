@@ -8,6 +8,7 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 
@@ -155,6 +156,7 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const CollisionModel> model_in, con
 }
 
 void CollisionChecker::Impl::place(const Configuration& configuration) {
+  throw_if_stopped();  // whatever is asked of a checker begins here
   if (!std::isfinite(configuration.opening)) {
     throw InvalidInput("E_NUMBER", "configuration.opening", "is not finite");
   }

@@ -8,6 +8,7 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "motion_bounds.hpp"
 #include "overlap.hpp"
 
@@ -101,6 +102,7 @@ class Contacts {
     clear_.place({0.5 * (a_.q + b_.q), 0.5 * (a_.opening + b_.opening)});
     bounds_.set(0.5 * (b_.q - a_.q), 0.25 * std::abs(b_.opening - a_.opening), true);
     for (const PiecePair& pair : pairs) {
+      throw_if_stopped();
       if (clear_.rough_distance(pair) > bounds_.approach(pair)) continue;
       const bool held = has_plane(pair);
       ++(held ? result_.proved : result_.measured);

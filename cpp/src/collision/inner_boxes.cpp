@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "handey/collision/solids.hpp"
+#include "handey/stop.hpp"
 
 namespace handey::collision {
 namespace {
@@ -69,6 +70,7 @@ class CellGrid {
     }
     inside_.assign(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]), 1);
     for (const Eigen::Vector3i& t : mesh.triangles) {
+      throw_if_stopped();
       strike_out({points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
                   points[static_cast<std::size_t>(t[2])]});
     }
@@ -85,8 +87,7 @@ class CellGrid {
     each_cell({0, 0, 0}, size_, [&](const std::array<int, 3>& first) {
       if (inside_[index(first)] == 0) return;
       std::array<int, 3> lower = first, upper = first;
-      while (grow(lower, upper)) {
-      }
+      while (grow(lower, upper)) throw_if_stopped();
       each_cell(lower, {upper[0] + 1, upper[1] + 1, upper[2] + 1},
                 [this](const std::array<int, 3>& i) { inside_[index(i)] = 0; });
       result.push_back(box(lower, upper));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 namespace {
@@ -118,6 +119,7 @@ std::vector<std::pair<int, int>> always_overlapping(const CollisionModel::Impl& 
   std::vector<int> misses(candidates.size(), 0);
   std::mt19937_64 generator(kSeed);
   for (int i = 0; i < kRandomConfigurations && !candidates.empty(); ++i) {
+    throw_if_stopped();
     const std::vector<Pose> poses =
         body_poses(*model.robot, random_configuration(*model.robot, generator));
     for (std::size_t k = candidates.size(); k-- > 0;) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "handey/stop.hpp"
+
 namespace handey::collision {
 namespace {
 
@@ -82,10 +84,12 @@ double convex_depth(const Piece& a, const Pose& X_WA, const Piece& b, const Pose
   directions.add(X_WA * a.hull.centre - X_WB * b.hull.centre);  // of two balls: exact
   const std::vector<Vector3d> edges_b = edge_directions(b, X_WB);
   for (const Vector3d& edge_a : edge_directions(a, X_WA)) {
+    throw_if_stopped();
     for (const Vector3d& edge_b : edges_b) directions.add(edge_a.cross(edge_b));
   }
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3d& n : directions.list()) {
+    throw_if_stopped();
     const double along = reach_along(a.hull, X_WA, n) + reach_along(b.hull, X_WB, -n);
     const double against = reach_along(a.hull, X_WA, -n) + reach_along(b.hull, X_WB, n);
     least = std::min({least, along, against});
@@ -153,6 +157,7 @@ class SampledDepth {
 
   void look_at(const Vector3d& point) {
     if (!box_.contains(X_BA_ * point)) return;
+    throw_if_stopped();
     consider(point, 0.0);
     if (!a_solid_) return;
     for (const double inside : {0.5e-3, 2e-3, 8e-3}) {  // bodies whose surfaces coincide

@@ -4,6 +4,7 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "overlap.hpp"
 
 namespace handey {
@@ -29,6 +30,7 @@ double body_depth(const BodyGeometry& a, const Pose& X_WA, const BodyGeometry& b
   if (balls_apart(a, X_WA, b, X_WB, 0.0)) return depth;
   for (const auto& piece_a : a.pieces) {
     for (const auto& piece_b : b.pieces) {
+      throw_if_stopped();
       depth = std::max(depth, collision::overlap_depth(*piece_a, X_WA, *piece_b, X_WB));
     }
   }
@@ -39,6 +41,7 @@ bool are_near(const BodyGeometry& a, const Pose& X_WA, const BodyGeometry& b, co
               double gap) {
   if (balls_apart(a, X_WA, b, X_WB, gap)) return false;
   for (const auto& piece_a : a.pieces) {
+    throw_if_stopped();
     for (const auto& piece_b : b.pieces) {
       if (collision::piece_distance(*piece_a, X_WA, *piece_b, X_WB, gap, gap) <= gap) return true;
     }

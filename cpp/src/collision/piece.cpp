@@ -9,6 +9,7 @@
 
 #include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
+#include "handey/stop.hpp"
 #include "piece_hulls.hpp"
 
 namespace handey::collision {
@@ -177,6 +178,7 @@ OrientedBox oriented_box(const TriangleMesh& mesh) {
   std::vector<Matrix3d> frames = triangle_axes(mesh);
   frames.push_back(principal_axes(points));
   for (const Matrix3d& axes : frames) {
+    throw_if_stopped();
     if (!axes.allFinite()) continue;
     const OrientedBox box = box_along(axes, points);
     if (size_of(box) < 0.99 * size_of(best)) best = box;
@@ -208,6 +210,7 @@ const std::vector<SceneHull>& Piece::covering() const {
 Pieces make_pieces(const std::vector<Shape>& shapes, const std::string& place) {
   Pieces pieces;
   for (const Shape& shape : shapes) {
+    throw_if_stopped();
     require_valid(shape, place);
     const MeshShape* mesh = std::get_if<MeshShape>(&shape.geometry);
     if (mesh == nullptr) {
@@ -256,6 +259,7 @@ double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Po
   }
   const double boxes = convex_distance(a.hull, X_WA, b.hull, X_WB, 0.0, enough);
   if (boxes > enough) return boxes;
+  throw_if_stopped();
   if (a.convex) return mesh_to_convex(b, X_WB, a, X_WA, boxes, least, enough);
   if (b.convex) return mesh_to_convex(a, X_WA, b, X_WB, boxes, least, enough);
   const Polyhedral& mesh_a = a.polyhedral();

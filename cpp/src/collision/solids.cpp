@@ -9,6 +9,7 @@
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
+#include "handey/stop.hpp"
 #include "inner_boxes.hpp"
 
 namespace handey {
@@ -153,6 +154,7 @@ double InnerSolid::depth(const Vector3d& point) const {
 InnerSolid inner_hull(const std::vector<Vector3d>& points) {
   std::vector<Vector3d> chosen = points.size() > kMostPoints ? outermost(points) : points;
   for (int trial = 0; trial < kMostTrials && chosen.size() >= 4; ++trial) {
+    throw_if_stopped();
     InnerSolid solid;
     ConvexPolyhedron hull;
     try {

@@ -11,6 +11,7 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "place_mending.hpp"
 
 namespace handey {
@@ -249,6 +250,7 @@ class Finder {
 
   /// The first body that the part, lifted off the face, is nearer to than it was lifted.
   const Standing* meets(const Pose& X_WP, double lifted) const {
+    throw_if_stopped();
     Pose X_WL = X_WP;
     X_WL.translation() += lifted * face_.X_WS.linear().col(2);
     const double gap = (1.0 - kRounding) * lifted;

@@ -8,6 +8,7 @@
 
 #include "arm_table_impl.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "map_union.hpp"
 
 namespace handey {
@@ -123,6 +124,7 @@ class Builder {
     const double part = table_.lattice.cell_width(table_.level, 2) / kSweepParts;
     const ArmPlane& plane = table_.links.plane;
     for (int column = 0; column < columns(); ++column) {
+      throw_if_stopped();
       for (int i = 0; i < kSweepParts; ++i) {
         const double theta3 = table_.lattice.lower[2] + (column * kSweepParts + i + 0.5) * part;
         for (const Polygon& outline : outlines) {

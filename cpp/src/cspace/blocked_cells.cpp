@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 
@@ -123,6 +124,7 @@ void BlockedCells::Impl::add_pair(int mover, int other, int obstacle,
 /// The most that a point's depth exceeds what the joints after the third can move it: what of the
 /// solid stays put whatever they do.
 double BlockedCells::Impl::wrist_slack(int mover, const InnerSolid& solid) {
+  throw_if_stopped();
   RelativeMotion motion;
   motion.axes = axes_.data();
   motion.cell_begin = motion.cell_end = kCellJoints;
@@ -286,6 +288,7 @@ int BlockedCells::Impl::prove_shared(int level, const CellIndex& cell, int joint
 }
 
 int BlockedCells::Impl::proving_pair(int level, const CellIndex& cell) {
+  throw_if_stopped();  // not further in: what is known of a cell must be whole
   for (int joints = 1; joints <= kCellJoints; ++joints) {
     const int proof = prove_shared(level, cell, joints);
     if (proof != kNoPair) return proof;

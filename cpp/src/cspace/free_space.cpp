@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 namespace {
@@ -162,12 +163,15 @@ double FreeSpace::bound(const SliceBox& box, bool wrist) const {
 SliceBox::State FreeSpace::prove(int index) {
   SliceBox& box = boxes_[at(index)];
   if (box.state != SliceBox::State::Unknown) return box.state;
-  box.state = SliceBox::State::NotProved;
+  throw_if_stopped();
   if (options_.table != nullptr && is_free_in_whole_range(box)) {
     box.state = SliceBox::State::Free;
     return box.state;
   }
-  if (bound(box, false) + bound(box, true) > kHopeless) return box.state;
+  if (bound(box, false) + bound(box, true) > kHopeless) {
+    box.state = SliceBox::State::NotProved;
+    return box.state;
+  }
   ConfigurationBox configurations;
   const SlicePoint from = lower(box), to = upper(box);
   SlicePoint middle;
@@ -189,6 +193,7 @@ SliceBox::State FreeSpace::prove(int index) {
     box.state = SliceBox::State::Free;
     box.near.clear();
   } else {
+    box.state = SliceBox::State::NotProved;
     box.near = std::move(proof.near);
     box.has_near = true;
   }

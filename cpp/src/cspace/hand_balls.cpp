@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "handey/stop.hpp"
 #include "swept_points.hpp"
 
 namespace handey::cspace {
@@ -78,6 +79,7 @@ void join_nearest(std::vector<Cluster>& clusters) {
     std::size_t first = 0, second = 1;
     double least = std::numeric_limits<double>::infinity(), waste = 0.0;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
+      throw_if_stopped();
       for (std::size_t j = i + 1; j < clusters.size(); ++j) {
         const Ball both = joined(clusters[i].ball, clusters[j].ball);
         const double apart = volume(clusters[i].ball) + volume(clusters[j].ball);
@@ -130,6 +132,7 @@ std::vector<HandBall> hand_balls(const Robot& robot, const Vector3d& wrist_in_bo
                                  const Eigen::VectorXd& upper) {
   std::vector<Swept> sweeps;
   for (const HandPiece& piece : pieces) {
+    throw_if_stopped();
     Swept sweep;
     sweep.piece = &piece;
     sweep.wrist_radius = hand_radius(robot, wrist_in_body, piece.depth, piece.points);

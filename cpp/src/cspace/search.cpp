@@ -9,6 +9,7 @@
 
 #include "box_neighbours.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "search_sides.hpp"
 #include "stance_samples.hpp"
 
@@ -37,7 +38,10 @@ class Search {
         stances_(space) {}
 
   SearchResult run() {
-    for (const double window : options_.windows) {
+    const int windows = static_cast<int>(options_.windows.size());
+    for (int i = 0; i < windows; ++i) {
+      const double window = options_.windows[static_cast<std::size_t>(i)];
+      tell_progress("window", i + 1, windows);
       space_.set_window(window);
       result_.window = window;
       if (!connect_ends()) {
@@ -124,6 +128,7 @@ class Search {
 
   void search() {
     while (!sides_[0].open.empty() && !sides_[1].open.empty() && !is_spent()) {
+      throw_if_stopped();
       const double bound = std::max(sides_[0].open.top().estimate, sides_[1].open.top().estimate);
       if (best_ <= bound || (best_ < kInfinity && options_.detour > 1.0)) return;
       expand(sides_[0].open.size() <= sides_[1].open.size() ? 0 : 1);

@@ -15,6 +15,7 @@
 
 #include "folded_arm.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "map_union.hpp"
 #include "slice_layer.hpp"
 
@@ -171,17 +172,19 @@ void Slice::Impl::unite_lower(std::vector<std::uint8_t>& bytes) {
 }
 
 void Slice::Impl::make_tori() {
-  tori.emplace();
+  std::vector<TorusMaps> all;
   for (const Standing& standing : scene.standing) {
+    throw_if_stopped();
     for (const Target& target : work.targets_of(standing.concerns)) {
       for (const Torus& torus : torus_of(table.links.plane, standing.hull, target.slab)) {
         TorusMaps made{torus.lower, torus.upper, {}};
         made.maps.clear(scene.balls.size());
         work.add(target, torus.section, made.maps);
-        tori->push_back(std::move(made));
+        all.push_back(std::move(made));
       }
     }
   }
+  tori = std::move(all);
 }
 
 void Slice::Impl::build(int waist) {
@@ -241,11 +244,11 @@ void Slice::Impl::ask_inside(int waist) {
     for (int column = 0; column < columns(); ++column) {
       const std::uint64_t word = layer[static_cast<std::size_t>(row * words + column / 64)];
       if ((word >> (column % 64)) & 1U) continue;
-      inside_asked = true;
       middle.q(0) = table.lattice.centre(table.level, 0, waist);
       middle.q(1) = table.lattice.centre(table.level, 1, row);
       middle.q(2) = table.lattice.centre(table.level, 2, column);
       const std::optional<Hit> hit = checker.find_hit(middle, 0.0);
+      inside_asked = true;
       if (!hit) return;
       reason = "'" + hit->a + "' is inside '" + hit->b + "'";
       for (std::vector<std::uint64_t>& each : layers) {
@@ -281,7 +284,14 @@ const std::vector<std::uint64_t>& Slice::blocked(int waist_cell) {
                            std::to_string(impl_->layers.size() - 1));
   }
   std::vector<std::uint64_t>& layer = impl_->layers[static_cast<std::size_t>(waist_cell)];
-  if (layer.empty()) impl_->build(waist_cell);
+  if (layer.empty()) {
+    try {
+      impl_->build(waist_cell);
+    } catch (...) {  // stopped: the next to ask builds it again
+      layer.clear();
+      throw;
+    }
+  }
   return layer;
 }
 

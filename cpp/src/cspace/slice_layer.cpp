@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "handey/stop.hpp"
+
 namespace handey::cspace {
 namespace {
 
@@ -144,6 +146,7 @@ void LayerWork::add(const Target& target, const Polygon& section, LayerMaps& map
 
 void LayerWork::add_at(const Standing& standing, const Pose& X_ER, double half_width,
                        WaistCell& cell, LayerMaps& maps) {
+  throw_if_stopped();
   // Where can the ball round it be? A turn by phi moves a point by 2 sin(phi / 2) times its
   // distance from axis 1.
   const ArmPlane& plane = table_.links.plane;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "handey/stop.hpp"
+
 namespace handey::cspace {
 namespace {
 
@@ -93,6 +95,7 @@ int TwoFloods::least(std::size_t side) const {
 }
 
 void TwoFloods::step(std::size_t side) {
+  throw_if_stopped();
   if (queue_[side].empty()) return;
   const int id = queue_[side].top().cell;
   queue_[side].pop();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "handey/stop.hpp"
 #include "swept_points.hpp"
 
 namespace handey::cspace {
@@ -57,6 +58,7 @@ class PairProof {
       : robot_(robot), still_(still), moved_(moved), gap_(gap) {}
 
   bool prove(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    throw_if_stopped();
     if (budget_-- <= 0) return false;
     if (sweep_growth(still_.depth, moved_.depth, lower, upper) <= kMost &&
         are_parted(still_.points,

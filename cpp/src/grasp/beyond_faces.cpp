@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "drafts.hpp"
+#include "handey/stop.hpp"
 #include "pair_rules.hpp"
 #include "part_edges.hpp"
 #include "plane_map.hpp"
@@ -65,6 +66,7 @@ class BeyondFaces {
     std::vector<const Draft*> wait;
     for (const Draft& draft : drafts) {
       if (is_full()) return;
+      throw_if_stopped();
       if (is_taken(draft)) continue;
       if (stands_out(draft)) {
         wait.push_back(&draft);
@@ -74,6 +76,7 @@ class BeyondFaces {
     }
     for (const Draft* draft : wait) {
       if (is_full()) return;
+      throw_if_stopped();
       if (!is_taken(*draft)) take(*draft);
     }
   }

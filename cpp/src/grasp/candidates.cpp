@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "handey/stop.hpp"
 #include "obstruction.hpp"
 
 namespace handey::grasp {
@@ -113,6 +114,7 @@ ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
   ContactDemand demand;
   for (const Eigen::Vector2d& target : pair.targets) {
     for (const double theta : approach_directions(pair, 8)) {
+      throw_if_stopped();
       demand.best =
           std::max(demand.best,
                    pad_contact_area(pair.unobstructed, {target.x(), target.y(), theta}, gripper));
@@ -167,6 +169,7 @@ CandidateMaker::CandidateMaker(const RankedPair& pair, const Robot& robot,
 }
 
 void CandidateMaker::make(std::size_t slot, CandidateList& list) {
+  throw_if_stopped();
   const std::size_t place = slot / directions_.size(), turn = slot % directions_.size();
   const Eigen::Vector2d& target = places_[place];
   const double theta = directions_[turn];

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "handey/stop.hpp"
+
 namespace handey::grasp {
 namespace {
 
@@ -74,6 +76,7 @@ class Drafter {
   std::vector<Draft> draft() {
     for (std::size_t f = 0; f < features_.faces.size(); ++f) {
       const Feature face{FeatureKind::Face, static_cast<int>(f)};
+      throw_if_stopped();
       for (std::size_t e = 0; e < features_.edges.size(); ++e) {
         face_edge(face, {FeatureKind::Edge, static_cast<int>(e)});
       }
@@ -83,6 +86,7 @@ class Drafter {
     }
     const int count = std::min(options_.most_edges, static_cast<int>(features_.edges.size()));
     for (int a = 0; a < count; ++a) {
+      throw_if_stopped();
       for (int b = a + 1; b < count; ++b) edge_edge(a, b);
     }
     return std::move(drafts_);

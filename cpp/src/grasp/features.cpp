@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "beyond_faces.hpp"
+#include "handey/stop.hpp"
 #include "pair_rules.hpp"
 #include "part_faces.hpp"
 #include "plane_map.hpp"
@@ -109,6 +110,7 @@ class PairFinder {
   }
 
   void consider(int index_a, int index_b) {
+    throw_if_stopped();
     const PlanarFace& a = face(index_a);
     const PlanarFace& b = face(index_b);
     // |n_a + n_b| is the angle from antiparallel.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "candidates.hpp"
+#include "handey/stop.hpp"
 #include "pose_test.hpp"
 #include "ranges.hpp"
 
@@ -225,7 +226,10 @@ bool LegalGraspSearch::is_done() const { return impl_->is_done(); }
 std::vector<GraspPose> LegalGraspSearch::next(int candidates) {
   grasp::require_in_range(candidates, 1, std::numeric_limits<int>::max(), "candidates");
   const std::size_t known = impl_->result.poses.size();
-  for (int i = 0; i < candidates && !impl_->is_done(); ++i) impl_->look();
+  for (int i = 0; i < candidates && !impl_->is_done(); ++i) {
+    throw_if_stopped();
+    impl_->look();
+  }
   const auto fresh = impl_->result.poses.begin() + static_cast<std::ptrdiff_t>(known);
   return best_first({fresh, impl_->result.poses.end()});
 }

@@ -10,6 +10,7 @@
 #include "bounds.hpp"
 #include "handey/geometry/convex_pieces.hpp"
 #include "handey/geometry/section.hpp"
+#include "handey/stop.hpp"
 #include "plane_map.hpp"
 
 namespace handey::grasp {
@@ -86,6 +87,7 @@ Pose Obstruction::side_frame(const FeaturePair& pair, bool side_a) const {
 Region Obstruction::part_between(const Pose& X_SP, double lower) const {
   std::vector<Region> standing_out;
   for (const Shape& shape : part_.shapes) {
+    throw_if_stopped();
     const Eigen::AlignedBox3d box = bounding_box(shape, X_SP);
     if (box.max().z() <= lower || box.min().z() >= layer_) continue;
     Region region = slab_projection(shape, X_SP, lower, layer_);
@@ -138,6 +140,7 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
     window.extend(Eigen::Vector2d(around.max().x(), y_sense * around.max().y()));
     const double lower = -clearance_, upper = layer_ + clearance_;
     for (const Shape& shape : body.shapes) {
+      throw_if_stopped();
       const Eigen::AlignedBox3d box = bounding_box(shape, X_SB);
       if (box.max().z() < lower || box.min().z() > upper) continue;
       const Eigen::AlignedBox2d seen(box.min().head<2>(), box.max().head<2>());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "handey/stop.hpp"
 #include "obstruction.hpp"
 #include "pair_rules.hpp"
 #include "ranges.hpp"
@@ -96,6 +97,7 @@ class Ranker {
   Region obstacles(RankedPair& ranked, bool at_destination) const {
     std::vector<Region> found;
     for (const NearbyBody& near : nearby_) {
+      throw_if_stopped();
       if (near.at_destination != at_destination) continue;
       const Body& body = cell_.body(near.body);
       Region region = obstruction_.of_body(ranked.pair, body, near.X_PB, reach_of(gripper_));
@@ -163,6 +165,7 @@ Ranking rank_grasps(const Cell& cell, int part, const Pose& X_WP_goal, const Fea
   }
   Ranker ranker(cell, part, X_WP_goal, features, options);
   for (const FeaturePair& pair : features.pairs) {
+    throw_if_stopped();
     if (!is_asked_for(has_faces_only(pair), options)) continue;
     RankedPair ranked = ranker.rank(pair);
     if (ranker.is_usable(ranked)) ranker.choose_targets(ranked);

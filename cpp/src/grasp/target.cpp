@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "handey/stop.hpp"
 #include "ranges.hpp"
 
 namespace handey {
@@ -186,6 +187,7 @@ std::vector<Eigen::Vector2d> fingertip_targets(const Region& unobstructed,
 
   std::vector<Eigen::Vector2d> targets;
   while (static_cast<int>(targets.size()) < most) {
+    throw_if_stopped();
     const Candidate* best = nullptr;
     double best_score = 0.0;
     for (const Candidate& candidate : candidates) {

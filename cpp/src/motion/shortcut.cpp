@@ -11,6 +11,7 @@
 
 #include "clearance.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "random.hpp"
 #include "require.hpp"
 
@@ -153,6 +154,7 @@ class Shortener {
     const Waypoint &before = path_[k - 1], &corner = path_[k], &after = path_[k + 1];
     const Cost cost = cost_by(before, corner, after);
     std::vector<Move> moves;
+    throw_if_stopped();
     for (int draw = 0; draw < kDraws; ++draw) {
       const Configuration target =
           motion::between(before.configuration, after.configuration, motion::uniform(generator_));

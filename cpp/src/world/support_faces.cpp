@@ -8,6 +8,7 @@
 
 #include "handey/errors.hpp"
 #include "handey/geometry/section.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 namespace {
@@ -98,6 +99,7 @@ Vector2d middle_of(const Region& region) {
 Region section(const Body& body, const Pose& X_SB, double lower, double upper) {
   std::vector<Region> slabs;
   for (const Shape& shape : body.shapes) {
+    throw_if_stopped();
     slabs.push_back(slab_projection(shape, X_SB, lower, upper));
   }
   return offset(unite(slabs), kJoint);
@@ -141,6 +143,7 @@ std::vector<SupportFace> support_faces(const Body& body, const SupportFaceOption
   PlanarFaceOptions planar;
   planar.least_area = options.least_area;
   for (const Shape& shape : body.shapes) {
+    throw_if_stopped();
     const TriangleMesh mesh = tessellate(shape, kSegments);
     const MeshShape* given = std::get_if<MeshShape>(&shape.geometry);
     std::vector<PlanarFace> faces = planar_faces(mesh, planar);
