@@ -36,6 +36,7 @@ class StandInReport:
     duration_s: float = 8.0
     regrasps: int = 0
     deadline_passed: bool = False
+    cancelled: bool = False
     stages: dict = field(default_factory=lambda: {"grasp": 0.2, "approach": 0.3})
     gross_motions: list = field(
         default_factory=lambda: [
@@ -108,7 +109,7 @@ def workshop(tmp_path, monkeypatch):
         pages=[],
     )
 
-    def plan(cell, options):
+    def plan(cell, options, **_):
         bench.options = options
         bench.before_planning()
         return types.SimpleNamespace(plan=bench.plan, report=bench.report)

@@ -20,7 +20,7 @@ void take_signals();
 class Unlock {
  public:
   Unlock() {
-    if (is_main_thread()) scope_.emplace(CancelToken::never(), StopHooks{&take_signals, {}});
+    if (is_main_thread()) scope_.emplace(CancelToken::never(), StopHooks{&take_signals});
   }
 
  private:

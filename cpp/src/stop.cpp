@@ -11,8 +11,6 @@ namespace {
 
 thread_local StopScope* innermost = nullptr;
 
-// Choice: asking a caller costs it a lock; five times in the 100 ms in which planning must end.
-constexpr std::chrono::milliseconds kBetweenPolls{20};
 // Choice: longer than anything is planned, and far from where the clock's count overflows [s].
 constexpr double kLongest = 1e9;
 
@@ -62,7 +60,7 @@ const char* Stopped::what() const noexcept {
 StopScope::StopScope(CancelToken token, StopHooks hooks)
     : token_(std::move(token)),
       hooks_(std::move(hooks)),
-      next_poll_(CancelToken::Clock::now() + kBetweenPolls),
+      next_poll_(CancelToken::Clock::now() + hooks_.between_polls),
       outer_(innermost) {
   innermost = this;
 }
@@ -75,7 +73,7 @@ void StopScope::look(CancelToken::Clock::time_point now) {
   if (deadline && now >= *deadline) throw Stopped(Stopped::Cause::Deadline);
   if (!hooks_.poll || now < next_poll_) return;
   hooks_.poll();
-  next_poll_ = CancelToken::Clock::now() + kBetweenPolls;
+  next_poll_ = CancelToken::Clock::now() + hooks_.between_polls;
 }
 
 void throw_if_stopped() {

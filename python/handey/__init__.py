@@ -24,19 +24,24 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from handey.errors import Fault, HandeyError, InvalidInput
+from handey.errors import Fault, HandeyError, Interrupted, InvalidInput
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from handey._core import CancelToken
     from handey.cell_file import CellFile, load_cell, parse_cell
     from handey.check import CheckReport
     from handey.plan import Plan, Step
     from handey.planner import PlanOptions, PlanResult
 
 __all__ = [
+    "CancelToken",
     "CellFile",
     "CheckReport",
     "Fault",
     "HandeyError",
+    "Interrupted",
     "InvalidInput",
     "Plan",
     "PlanOptions",
@@ -49,6 +54,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "CancelToken": "_core",
     "CellFile": "cell_file",
     "CheckReport": "check",
     "Plan": "plan",
@@ -61,23 +67,34 @@ _HOMES = {
 }
 
 
-def plan(cell: CellFile | str | os.PathLike[str], options: PlanOptions | None = None) -> PlanResult:
+def plan(
+    cell: CellFile | str | os.PathLike[str],
+    options: PlanOptions | None = None,
+    *,
+    cancel: CancelToken | None = None,
+    progress: Callable[[str, str], None] | None = None,
+) -> PlanResult:
     """Plans the task of a cell.
 
     Args:
         cell: from `load_cell`, or the path of a cell file.
         options: budgets and seed; see `PlanOptions`.
+        cancel: ends planning when another thread calls its `cancel()`.
+        progress: told where planning is, as a stage and a detail: "transfer", "goal 0, grasp 3 of
+            12".
 
     Returns:
-        The plan and its report, or no plan and the reasons.
+        The plan and its report, or no plan and the reasons. Where the deadline passed or planning
+        was cancelled, the report tells what was tried until then.
 
     Raises:
         InvalidInput: if the cell file is wrong, or has what this version cannot plan for.
+        Interrupted: on Ctrl-C; a KeyboardInterrupt that carries the report so far.
     """
     from handey import cell_file, planner
 
     loaded = cell if isinstance(cell, cell_file.CellFile) else cell_file.load_cell(cell)
-    return planner.plan(loaded, options)
+    return planner.plan(loaded, options, cancel=cancel, progress=progress)
 
 
 def check(cell: str | os.PathLike[str], plan: Plan | str | os.PathLike[str]) -> CheckReport:

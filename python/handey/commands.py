@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING, TypeVar
 import handey
 from handey.errors import Fault, InvalidInput
 from handey.summary import no_plan_lines, plan_lines, plan_summary
-from handey.terminal import complain, one_line, tell, warn
+from handey.terminal import ProgressLine, complain, one_line, tell, warn
 
 if TYPE_CHECKING:
+    from handey._core import CancelToken
     from handey.cell_file import CellFile
     from handey.check import CheckReport
     from handey.planner import PlanResult
@@ -37,7 +38,11 @@ __all__ = [
 
 OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3, 70, 124, 130
 INPUT_KINDS = (".yaml", ".yml", ".urdf", ".stl", ".obj", ".ply", ".npy", ".png")
-TIME_TO_TELL = 0.25  # Choice: the planner stops this long before the deadline and tells why [s]
+# Choice: the planner stops this long before the deadline and tells why [s]. It looks at the clock
+# every few milliseconds.
+TIME_TO_TELL = 0.05
+# Choice: after Ctrl-C the report of a planner that is told to stop is waited for so long [s].
+TIME_TO_STOP = 1.0
 Result = TypeVar("Result")
 
 
@@ -47,17 +52,30 @@ class DeadlinePassedError(Exception):
 
 def plan_command(options: argparse.Namespace) -> int:
     """Plans, checks the plan, and only then writes it."""
+    start = time.monotonic()
+    from handey._core import CancelToken
     from handey.output import require_writable
 
-    start = time.monotonic()
     output = Path(options.output or f"{Path(options.cell).stem}.plan.json")
     require_writable(output)
     keep_inputs([options.cell], output)
+    cancel, line = CancelToken(), ProgressLine(options)
+    left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
     try:
-        cell, result, checked = within(options.deadline, lambda: _plan_and_check(options, start))
+        work = within(left, lambda: _plan_and_check(options, start, cancel, line), cancel)
     except DeadlinePassedError:
+        line.end()
         return deadline_passed(options, start)
+    finally:
+        line.end()
+    cell, result, checked = work
     summary = plan_summary(cell, result, checked)
+    if cancel.cancelled:
+        told = {"verdict": "unknown", "cancelled": True}
+        lines = [] if result.plan is not None else no_plan_lines(cell, result, options.verbose)
+        tell(options, summary | told, lines)
+        complain("interrupted")
+        return INTERRUPTED
     if result.plan is None:
         tell(options, summary, no_plan_lines(cell, result, options.verbose))
         return DEADLINE if result.report.deadline_passed else NO_PLAN
@@ -75,7 +93,7 @@ def plan_command(options: argparse.Namespace) -> int:
 
 
 def _plan_and_check(
-    options: argparse.Namespace, start: float
+    options: argparse.Namespace, start: float, cancel: CancelToken, line: ProgressLine
 ) -> tuple[CellFile, PlanResult, CheckReport | None]:
     from handey.cell_file import load_cell
 
@@ -89,15 +107,25 @@ def _plan_and_check(
         left -= min(TIME_TO_TELL, 0.1 * left)
         if left <= 0:
             raise DeadlinePassedError
-    result = planner.plan(cell, planner.PlanOptions(seed=options.seed, deadline=left))
+    wanted = planner.PlanOptions(seed=options.seed, deadline=left)
+    result = planner.plan(cell, wanted, cancel=cancel, progress=line.show if line.shown else None)
     checked = None
-    if result.plan is not None:
+    if result.plan is not None and not cancel.cancelled:
+        line.show("check")
         checked = handey.check(options.cell, result.plan)
     return cell, result, checked
 
 
-def within(seconds: float | None, work: Callable[[], Result]) -> Result:
+def within(
+    seconds: float | None, work: Callable[[], Result], cancel: CancelToken | None = None
+) -> Result:
     """The result of `work`, done in a thread so that a deadline and Ctrl-C end the wait at once.
+
+    Args:
+        seconds: how long it is waited for.
+        work: what is to be done.
+        cancel: cancelled on Ctrl-C; then the work is given a moment to come to its end. The second
+            Ctrl-C is not waited for.
 
     Raises:
         DeadlinePassedError: after `seconds`.
@@ -113,9 +141,17 @@ def within(seconds: float | None, work: Callable[[], Result]) -> Result:
 
     threading.Thread(target=answer, daemon=True, name="handey-plan").start()
     try:
-        result, error = answers.get(timeout=seconds)
+        result, error = answers.get(timeout=None if seconds is None else max(0.0, seconds))
     except queue.Empty:
         raise DeadlinePassedError from None
+    except KeyboardInterrupt:
+        if cancel is None:
+            raise
+        cancel.cancel()
+        try:
+            result, error = answers.get(timeout=TIME_TO_STOP)
+        except queue.Empty:
+            raise KeyboardInterrupt from None
     if error is not None:
         raise error
     return result  # type: ignore[return-value]

@@ -38,8 +38,8 @@ class PlanOptions:
 
     Attributes:
         seed: fixes every random choice; 0 to 2^64 - 1.
-        deadline: seconds of wall-clock time after which planning stops between two attempts; None
-            for no bound.
+        deadline: seconds of wall-clock time after which planning stops, whatever it is at; None for
+            no bound.
         ranking: options of steps 1 to 3.
         legality: options of the test of grasp poses at both ends.
         denser: the same, for further passes over the grasps where the one before gave no plan.

@@ -59,28 +59,84 @@ class _Progress:
     steps: list[Step] = field(default_factory=list)
 
 
-def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
+def plan(
+    cell_file: CellFile,
+    options: PlanOptions | None = None,
+    *,
+    cancel: _core.CancelToken | None = None,
+    progress: Callable[[str, str], None] | None = None,
+) -> PlanResult:
     """Plan the task of a cell.
 
     Args:
         cell_file: the cell and its task, from `handey.load_cell`.
         options: budgets and seed.
+        cancel: ends planning when another thread cancels it; the core looks at it all the time.
+        progress: told where planning is: the stage ("transfer"), and what of it ("goal 0, grasp 3
+            of 12, window 2 of 5"). In the thread that plans; what it raises ends planning.
 
     Returns:
         The plan with its report; without a plan the report's `reasons` say what stood in the way.
 
     Raises:
         InvalidInput: if the cell has what this version cannot plan for.
+        Interrupted: on Ctrl-C; a KeyboardInterrupt with the report so far.
     """
     options = options or PlanOptions()
     _refuse_unsupported(cell_file)
     begin_wall, begin_cpu = time.perf_counter(), time.process_time()
-    stop_at = None if options.deadline is None else begin_wall + options.deadline
-    clock = StageClock()
+    clock = StageClock(progress)
     report = Report(
         goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.goals)], seed=options.seed
     )
-    progress = _Progress(cell_file.cell, cell_file.cell.start)
+    state = _Progress(cell_file.cell, cell_file.cell.start)
+    interrupt = None
+    try:
+        reached = _core.run_within(
+            lambda: _reach_goals(cell_file, options, state, clock, report),
+            cancel=cancel,
+            deadline=options.deadline,
+            progress=None if progress is None else clock.tell,
+        )
+    except Stopped as stopped:
+        reached = False
+        report.deadline_passed = stopped.cause == "deadline"
+        report.cancelled = stopped.cause == "cancelled"
+    except KeyboardInterrupt as error:
+        interrupt, reached, report.cancelled = error, False, True
+    if report.stopped:
+        for goal in report.goals:
+            if goal.status == "not tried" and goal.funnel:
+                goal.status = "stopped"
+    report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
+    report.cpu_s = round(time.process_time() - begin_cpu, 6)
+    report.wall_s = round(time.perf_counter() - begin_wall, 6)
+    if interrupt is not None:
+        raise Interrupted(report) from interrupt
+    if not reached:
+        failed = [goal for goal in report.goals if goal.status == "failed"]
+        exhausted = bool(failed) and all(goal.exhausted for goal in failed)
+        report.verdict = "infeasible" if exhausted and not report.stopped else "unknown"
+        return PlanResult(None, report)
+    report.verdict = "plan"
+    result = Plan(
+        cell=cell_file.name,
+        joints=tuple(joint.name for joint in cell_file.cell.robot.joints),
+        steps=tuple(state.steps),
+        placements=_placements(state),
+    )
+    report.duration_s = round(state.clock, 6)
+    return PlanResult(replace(result, report=report.as_dict()), report)
+
+
+def _reach_goals(
+    cell_file: CellFile,
+    options: PlanOptions,
+    state: _Progress,
+    clock: StageClock,
+    report: Report,
+) -> bool:
+    """Plan all goals, and take the motions over into the state."""
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell)
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
@@ -90,33 +146,13 @@ def plan(cell_file: CellFile, options: PlanOptions | None = None) -> PlanResult:
         cache(lambda: _arm_table(cell_file.cell.robot)),
         clock,
         _plan_goal,
-        stop_at,
-        lambda: respect(stop_at),
+        None,
+        lambda: respect(None),
     )
-    try:
-        moves = plan_order(cell_file, options, hands, report)
-        for move in moves or []:
-            _take_over(progress, move.target, move.goal, move.carry, clock, report)
-        reached = moves is not None
-    except DeadlinePassed:
-        reached, report.deadline_passed = False, True
-    report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
-    report.cpu_s = round(time.process_time() - begin_cpu, 6)
-    report.wall_s = round(time.perf_counter() - begin_wall, 6)
-    if not reached:
-        failed = [goal for goal in report.goals if goal.status == "failed"]
-        exhausted = bool(failed) and all(goal.exhausted for goal in failed)
-        report.verdict = "infeasible" if exhausted and not report.deadline_passed else "unknown"
-        return PlanResult(None, report)
-    report.verdict = "plan"
-    result = Plan(
-        cell=cell_file.name,
-        joints=tuple(joint.name for joint in cell_file.cell.robot.joints),
-        steps=tuple(progress.steps),
-        placements=_placements(progress),
-    )
-    report.duration_s = round(progress.clock, 6)
-    return PlanResult(replace(result, report=report.as_dict()), report)
+    moves = plan_order(cell_file, options, hands, report)
+    for move in moves or []:
+        _take_over(state, move.target, move.goal, move.carry, clock, report)
+    return moves is not None
 
 
 def _refuse_unsupported(cell_file: CellFile) -> None:

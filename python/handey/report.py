@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -27,14 +27,29 @@ __all__ = [
 
 
 class StageClock:
-    """CPU seconds by stage, counted by `with clock("approach"):`; stages do not nest."""
+    """CPU seconds by stage, counted by `with clock("approach"):`; stages do not nest.
 
-    def __init__(self) -> None:
+    Attributes:
+        seconds: by stage.
+        trying: what is tried now: "goal 0, grasp 3 of 12".
+    """
+
+    def __init__(self, progress: Callable[[str, str], None] | None = None) -> None:
+        """`progress` is told each stage as it begins, and what of it is tried."""
         self.seconds: dict[str, float] = {}
+        self.trying = ""
+        self._stage, self._progress = "", progress
+
+    def tell(self, detail: str = "") -> None:
+        """Tell how far the stage is: "window 2 of 5"."""
+        if self._progress is not None:
+            self._progress(self._stage, ", ".join(t for t in (self.trying, detail) if t))
 
     @contextmanager
     def __call__(self, stage: str) -> Iterator[None]:
         """Count the time of the block for `stage`."""
+        self._stage = stage
+        self.tell()
         begin = time.process_time()
         try:
             yield
@@ -120,7 +135,8 @@ class GoalReport:
     Attributes:
         goal: index in the task.
         text: the goal in words.
-        status: "planned", "met already", "failed" or "not tried".
+        status: "planned", "met already", "failed", "stopped" (planning was, while it was tried) or
+            "not tried".
         funnel: counts by stage, in the order of the stages.
         reasons: why grasps fell before they were tried, most frequent first.
         attempts: the grasps that were tried, in order.
@@ -164,7 +180,7 @@ class GoalReport:
                 "  " + ", ".join(f"{count} {stage}" for stage, count in self.funnel.items())
             )
         lines += [f"  {reason}" for reason in self.reasons[:most]]
-        if self.status == "failed":
+        if self.status in ("failed", "stopped"):
             counted = Counter((a.stage, a.reason) for a in self.attempts if a.stage != "done")
             for (stage, reason), count in counted.most_common(most):
                 times = f" ({count} grasps)" if count > 1 else ""
@@ -204,6 +220,7 @@ class Report:
         duration_s: of the planned motion; 0 without a plan.
         regrasps: times that a part is put down and taken again.
         deadline_passed: planning stopped because the deadline had passed.
+        cancelled: planning stopped because it was cancelled or interrupted.
         seed: fixes every random choice.
     """
 
@@ -218,7 +235,13 @@ class Report:
     duration_s: float = 0.0
     regrasps: int = 0
     deadline_passed: bool = False
+    cancelled: bool = False
     seed: int = 0
+
+    @property
+    def stopped(self) -> bool:
+        """Planning was stopped before all was tried."""
+        return self.deadline_passed or self.cancelled
 
     @property
     def reasons(self) -> list[str]:
@@ -226,8 +249,9 @@ class Report:
         if self.verdict == "plan":
             return []
         lines = ["the deadline passed"] if self.deadline_passed else []
+        lines += ["planning was cancelled"] if self.cancelled else []
         for goal in self.goals:
-            if goal.status == "failed":
+            if goal.status in ("failed", "stopped"):
                 lines += goal.summary()
         return lines
 
@@ -242,6 +266,7 @@ class Report:
             "stages": self.stages,
             "seed": self.seed,
             "deadline_passed": self.deadline_passed,
+            "cancelled": self.cancelled,
             "gross_motions": [motion.as_dict() for motion in self.gross_motions],
             "local_motions": [vars(motion) for motion in self.local_motions],
             "planners": self.planners,

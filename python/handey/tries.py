@@ -53,6 +53,7 @@ class Tries:
         stop_at: deadline by `time.perf_counter` [s].
         waiting: by round, what fell at a gross motion in the round before.
         fallen: grasps that fell near obstacles.
+        grasps: how many were taken up.
     """
 
     work: Workspace
@@ -61,6 +62,7 @@ class Tries:
     stop_at: float | None
     waiting: dict[int, list[tuple[str, Reach]]] = field(default_factory=dict)
     fallen: list[_Try] = field(default_factory=list)
+    grasps: int = 0
 
     def reach_any(self, grasps: Iterator[Grasp]) -> Carry | None:
         """Steps 4 to 6 with the least budget for one grasp after the other: the first that serves.
@@ -68,6 +70,9 @@ class Tries:
         Every grasp is tried with up to two configurations of the arm.
         """
         for pair, aim in grasps:
+            self.grasps += 1
+            found = self.report.funnel.get("legal grasp poses", self.grasps)
+            self._announce(f"grasp {self.grasps} of {found}")
             for q_pick in aim.q_pick[:2]:
                 attempt = _Try(describe(pair, aim), pair, aim, q_pick)
                 carry = self._reach(attempt, 0) or self._catch_up()
@@ -81,16 +86,22 @@ class Tries:
         What fell by its budget is tried with the next greater one first.
         """
         for budget in range(1, round_ + 1):
-            for name, reach in self.waiting.pop(budget, []):
+            waiting = self.waiting.pop(budget, [])
+            for number, (name, reach) in enumerate(waiting, 1):
+                self._announce(f"again, grasp {number} of {len(waiting)}")
                 carry = self._carry(name, reach, budget)
                 if carry is not None:
                     return carry
         fallen, self.fallen = self.fallen, []
-        for attempt in fallen[: self.options.most_by_arm]:
+        for number, attempt in enumerate(fallen[: self.options.most_by_arm], 1):
+            self._announce(f"by the whole arm, grasp {number} of {len(fallen)}")
             carry = self._reach(attempt, round_)
             if carry is not None:
                 return carry
         return None
+
+    def _announce(self, what: str) -> None:
+        self.work.clock.trying = f"goal {self.report.goal}, {what}"
 
     def _catch_up(self) -> Carry | None:
         """The next budget for the first that wait for it; the greatest is left to the end."""

@@ -63,9 +63,11 @@ class Stopped : public std::exception {
 
 /// What a scope is told while a stage runs.
 struct StopHooks {
-  /// Called between two looks at least 20 ms apart; may throw, what it throws comes out of the
-  /// stage. For callers who learn only by asking that they were interrupted.
+  /// Called at the first look after `between_polls`, again and again; may throw, what it throws
+  /// comes out of the stage. For callers who learn only by asking that they were interrupted.
   std::function<void()> poll;
+  /// Choice: to ask may cost a lock, and planning is to end within 100 ms.
+  std::chrono::milliseconds between_polls{20};
   /// Told how far a long stage is: "window 2 of 5".
   std::function<void(const std::string&)> progress;
 };
