@@ -25,6 +25,7 @@ __all__: list[str] = [
     "BodyRef",
     "Box",
     "BumpLine",
+    "CancelToken",
     "Cell",
     "CellKind",
     "CertificateOptions",
@@ -201,6 +202,7 @@ __all__: list[str] = [
     "resting_pose",
     "resting_poses",
     "robot_overlaps",
+    "run_within",
     "sample_part_grasps",
     "search_free_space",
     "shorten_path",
@@ -211,6 +213,7 @@ __all__: list[str] = [
     "support_faces",
     "tessellate",
     "test_grasp_pose",
+    "throw_if_stopped",
     "time_path",
     "torus_of",
     "touching_bodies",
@@ -218,6 +221,45 @@ __all__: list[str] = [
     "unfilter_png16",
     "unite",
 ]
+
+class CancelToken:
+    """
+    Asks planning to stop, from any thread. Given to `handey.plan`.
+    """
+    @staticmethod
+    def after(seconds: typing.SupportsFloat | typing.SupportsIndex) -> CancelToken:
+        """
+        A token that also stops by itself.
+
+        Args:
+            seconds: from now, finite, 0 or more.
+
+        Raises:
+            InvalidInput: E_RANGE.
+        """
+    def __init__(self) -> None:
+        """
+        Stops when cancelled.
+        """
+    def cancel(self) -> None:
+        """
+        Ask for a stop; there is no way back.
+        """
+    @property
+    def cancelled(self) -> bool:
+        """
+        Was `cancel` called?
+        """
+    @property
+    def remaining(self) -> float | None:
+        """
+        Until the deadline, negative after it; None without one [s].
+        """
+    @property
+    def stop_requested(self) -> bool:
+        """
+        Cancelled, or past the deadline.
+        """
 
 class Region:
     """
@@ -5265,6 +5307,29 @@ def robot_overlaps(
     Pairs of robot or held part and others that overlap deeper than tolerance [m].
     """
 
+def run_within(
+    function: collections.abc.Callable[[], typing.Any],
+    *,
+    cancel: CancelToken | None = None,
+    deadline: typing.SupportsFloat | typing.SupportsIndex | None = None,
+    progress: collections.abc.Callable[[str], typing.Any] | None = None,
+) -> typing.Any:
+    """
+    Calls a function; the stages that it calls in this thread can be stopped.
+
+    Args:
+        function: without arguments.
+        cancel: a token that another thread may cancel.
+        deadline: seconds from now after which all stops.
+        progress: told how far a long stage is, as text: "window 2 of 5".
+
+    Returns:
+        What the function returns.
+
+    Raises:
+        Stopped: out of the stage that was stopped, through the function.
+    """
+
 def search_free_space(
     checker: CollisionChecker,
     start: Configuration,
@@ -5431,6 +5496,11 @@ def test_grasp_pose(
 
     Raises:
         InvalidInput: as find_legal_grasps.
+    """
+
+def throw_if_stopped() -> None:
+    """
+    Raise `Stopped` if what this thread runs within is to stop.
     """
 
 def time_path(

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "handey/geometry/section.hpp"
+#include "handey/stop.hpp"
 
 namespace handey::collision {
 
@@ -92,6 +93,7 @@ PlaceSample PlaceMender::mended(PlaceSample sample) const {
   double radius = kFinest;
   for (const Vector2d& corner : rest_.shadow) radius = std::max(radius, corner.norm());
   for (int i = 0; i < kMostSteps && bad > kNothing && step > kFinest; ++i) {
+    throw_if_stopped();
     PlaceSample best = sample;
     double least = bad;
     for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0),

@@ -139,10 +139,10 @@ class Print {
 
 // The Puma, a block between it and a wall, and all that the stages need.
 struct Bench {
-  Cell cell = test::block_on_table({test::box("wall", {0.02, 0.3, 0.5}, test::at(0.45, 0.0, 0.25)),
+  Cell cell = test::block_on_table({test::box("wall", {0.6, 0.02, 0.7}, test::at(0.65, 0.0, 0.35)),
                                     test::box("post", {0.04, 0.04, 0.4}, test::at(0.6, 0.1, 0.2))});
   GraspScene scene = test::scene_of(cell, test::at(0.5, -0.25, 0.025));
-  SphericalWristSolver solver{cell.robot};
+  SphericalWristSolver solver{*cell.robot};
   CollisionChecker checker{scene.model, cell};
   Ranking ranking = rank_grasps(cell, 0, scene.X_WP_goal);
   Configuration start, goal;
@@ -153,9 +153,12 @@ struct Bench {
   Bench() {
     // To either side of the wall.
     start = {Eigen::VectorXd::Zero(6), 0.1};
-    start.q << 0.9, 0.7, -1.9, 0.0, 0.4, 0.0;
+    start.q << 1.1, 0.557, -3.1, 0.0, -0.595, 0.0;
     goal = start;
-    goal.q(0) = -0.9;
+    goal.q(0) = -0.7;
+    EXPECT_TRUE(checker.is_free(start));
+    EXPECT_TRUE(checker.is_free(goal));
+    EXPECT_FALSE(certify_edge(checker, start, goal).is_free());
   }
 };
 
@@ -214,10 +217,10 @@ const std::vector<Stage>& stages() {
              plan_retreat(b.checker, b.checker, b.solver, b.start, Eigen::Vector3d::UnitZ());
          out << retreat.reason << retreat.path;
        },
-       20},
+       10},
       {"ArmTable",
        [](Bench& b, Print& out) { out << make_arm_table(*b.cell.robot)->lattice().cells(0, 0); },
-       100},
+       50},
       {"Slice",
        [](Bench& b, Print& out) {
          // Kept from run to run: what is built of it must be whole, or not there.
@@ -303,7 +306,7 @@ TEST_P(EveryStage, EndsAtTheNextLookAndCanBeRunAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stop, EveryStage, ::testing::ValuesIn(stages()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& stage) { return stage.param.name; });
 
 TEST(Progress, TellsTheWindowsOfTheSlices) {
   Bench& b = bench();
