@@ -37,7 +37,7 @@ def crowded(_: Path) -> dict:
     fixtures = {}
     for end, (x, y) in {"start": START, "goal": GOAL}.items():
         for i in range(25):
-            ring, angle = 0.075 + 0.06 * (i // 9), 2.4 * i
+            ring, angle = 0.06 + 0.06 * (i // 9), 2.4 * i
             at = [x + ring * np.cos(angle), y + ring * np.sin(angle), 0.09]
             fixtures[f"{end}_{i}"] = _box([0.02, 0.02, 0.18], [float(v) for v in at])
     return _cell("crowded", fixtures)
