@@ -5,6 +5,7 @@
 #include "handey/grasp/part_grasps.hpp"
 #include "handey/kinematics/spherical_wrist.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace handey::bindings {
 namespace {
@@ -106,7 +107,7 @@ Args:
   m.def(
       "rank_part_alone",
       [](const Body& part, const std::shared_ptr<Robot>& robot, const RankingOptions& options) {
-        const py::gil_scoped_release unlocked;
+        const Unlock unlock;
         return rank_part_alone(part, robot, options);
       },
       "part"_a, py::arg("robot").none(false), "options"_a = RankingOptions(),
@@ -126,7 +127,7 @@ Raises:
       "sample_part_grasps",
       [](const Body& part, const std::shared_ptr<Robot>& robot, const RankingOptions& ranking,
          const LegalityOptions& legality, int most) {
-        const py::gil_scoped_release unlocked;
+        const Unlock unlock;
         return PartGrasps{sample_part_grasps(part, robot, {ranking, legality, most})};
       },
       "part"_a, py::arg("robot").none(false), py::kw_only(), "ranking"_a = RankingOptions(),
@@ -152,7 +153,7 @@ Raises:
         const Pose placed = real_pose(X_SP, "X_SP");
         std::vector<char> clear;
         {
-          const py::gil_scoped_release unlocked;
+          const Unlock unlock;
           clear = clears_plane(robot, grasps.grasps, placed, options);
         }
         py::array_t<bool> array(static_cast<py::ssize_t>(clear.size()));
@@ -200,7 +201,7 @@ void bind_compatible_grasps(py::module_& m) {
          const std::vector<std::vector<int>>& groups, const py::object& places,
          double open_clearance, double clearance, int configurations, int most) {
         const std::vector<Pose> poses = pose_list(places, "places");
-        const py::gil_scoped_release unlocked;
+        const Unlock unlock;
         return find_compatible_grasps(model, cell, part, solver, grasps.grasps, groups, poses,
                                       {open_clearance, clearance, configurations, most});
       },
@@ -236,7 +237,7 @@ Raises:
         const std::vector<Pose> poses = pose_list(places, "places");
         std::vector<std::vector<double>> margins;
         {
-          const py::gil_scoped_release unlocked;
+          const Unlock unlock;
           margins = reach_margins(cell, solver, grasps.grasps, groups, poses);
         }
         py::array_t<double> array(

@@ -9,12 +9,7 @@ from handey.pick_and_place import DirectOptions
 from handey.plan_options import PlanOptions
 from handey.way_out import WayOutOptions
 
-__all__ = ["respect", "with_budget"]
-
-
-def respect(stop_at: float | None) -> None:
-    """Raise `Stopped` if planning is to stop; the core knows until when it may go on."""
-    _core.throw_if_stopped()
+__all__ = ["with_budget"]
 
 
 def with_budget(options: PlanOptions, round_: int) -> DirectOptions:

@@ -167,6 +167,8 @@ def _write(path: Path, arrays: dict[str, np.ndarray]) -> None:
             np.savez(file, digest=np.array(_digest(arrays)), **arrays)  # type: ignore[arg-type]
         os.replace(aside, path)
     except OSError:
+        pass
+    finally:  # on Ctrl-C too
         if aside is not None:
             Path(aside).unlink(missing_ok=True)
 

@@ -41,7 +41,7 @@ class GoalPlanner(Protocol):
     """Plans one part to one pose, steps 1 to 7; tells the report what came of it."""
 
     def __call__(
-        self, work: Workspace, options: PlanOptions, report: GoalReport, stop_at: float | None
+        self, work: Workspace, options: PlanOptions, report: GoalReport
     ) -> Carry | None: ...
 
 
@@ -55,8 +55,6 @@ class Hands:
         table: makes or reads maps of the arm's plane.
         clock: CPU seconds by stage.
         plan_goal: plans one part to one pose.
-        stop_at: when planning stops; None for never.
-        respect: raises when it is time to stop.
     """
 
     model: _core.CollisionModel
@@ -64,8 +62,6 @@ class Hands:
     table: Callable[[], _core.ArmTable | None]
     clock: StageClock
     plan_goal: GoalPlanner
-    stop_at: float | None
-    respect: Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -298,14 +294,13 @@ class Mover:
         report: GoalReport,
     ) -> Carry | None:
         hands = self.hands
-        hands.respect()
         self.tries += 1
         part = cell.part_index(target.part)
         scene = _core.GraspScene(model=hands.model, cell=cell, part=part, X_WP_goal=target.X_WP)
         work = Workspace(
             hands.model, scene, hands.solver, state.current, home, hands.clock, hands.table
         )
-        carry = hands.plan_goal(work, self._options(), report, hands.stop_at)
+        carry = hands.plan_goal(work, self._options(), report)
         for (action, planner), count in work.given.items():
             counts = self.report.planners.setdefault(action, {})
             counts[planner] = counts.get(planner, 0) + count

@@ -17,7 +17,6 @@ from functools import cache
 import numpy as np
 
 from handey import _core
-from handey.budgets import respect
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, Interrupted, InvalidInput, Stopped
@@ -146,8 +145,6 @@ def _reach_goals(
         cache(lambda: _arm_table(cell_file.cell.robot)),
         clock,
         _plan_goal,
-        None,
-        lambda: respect(None),
     )
     moves = plan_order(cell_file, options, hands, report)
     for move in moves or []:
@@ -174,9 +171,7 @@ def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
     return _core.make_arm_table(robot, options)[0]
 
 
-def _plan_goal(
-    work: Workspace, options: PlanOptions, report: GoalReport, stop_at: float | None
-) -> Carry | None:
+def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Carry | None:
     """Steps 1 to 7 for one goal: the first grasp that can be carried through, or several."""
     scene = work.scene
     unstable = _unstable(work)
@@ -184,9 +179,9 @@ def _plan_goal(
         report.funnel, report.attempts, report.status = {}, [], "failed"
         report.reasons = [unstable]
         return None
-    tries = Tries(work, report, options, stop_at)
+    tries = Tries(work, report, options)
     grasps = Grasps(work, options, report)
-    regrasp = Regrasp(work, options, lambda: respect(stop_at))
+    regrasp = Regrasp(work, options)
     carry = tries.reach_any(grasps.first(elsewhere=regrasp.is_needed)) or regrasp.run(0)
     if carry is None and regrasp.was_needed:
         # The tables are samples: what they have not may be found where all is looked at.

@@ -10,7 +10,6 @@ Not guaranteed: the number of regrasps is least over the grasps and places looke
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -51,13 +50,11 @@ class Regrasp:
     Attributes:
         work: the goal, and where the arm is.
         options: of planning.
-        respect: called between attempts; ends the search by an exception when time is up.
         words: the sequence that was planned.
     """
 
     work: Workspace
     options: PlanOptions
-    respect: Callable[[], None]
     words: str = ""
     _searches: dict[_Tier, RegraspSearch] = field(default_factory=dict)
     _needed: bool | None = None
@@ -147,7 +144,6 @@ class Regrasp:
                 self._table_of(tier),
                 self.options.regrasp,
                 self.options.seed,
-                self.respect,
             )
         return self._searches[tier]
 

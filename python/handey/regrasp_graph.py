@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from handey import _core
+
 __all__ = ["Graph", "Hop", "Place"]
 
 DISCOURAGED = 1.5  # Choice: what a node likely to be refused costs more [s]
@@ -141,6 +143,7 @@ class Graph:
             place = self.places[target]
             banned = [self._is_refused("put", target, int(grasp)) for grasp in place.grasps]
             for origin in range(len(self.places)):
+                _core.throw_if_stopped()
                 if origin in (target, DESTINATION) or not np.isfinite(held.cost[origin]).any():
                     continue
                 rows, there, times = self._transfer(origin, target)
@@ -155,6 +158,7 @@ class Graph:
     def _pick(self, put: _Layer) -> _Layer:
         layer = self._empty()
         for index, place in enumerate(self.places):
+            _core.throw_if_stopped()
             if index < 2 or not np.isfinite(put.cost[index]).any():
                 continue
             total = put.cost[index][:, None] + self._transit(index)

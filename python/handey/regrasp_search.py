@@ -9,7 +9,6 @@ Not guaranteed: that a sequence that exists is found. Article: "Regrasping".
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -94,14 +93,12 @@ class RegraspSearch:
         seed: of the samples.
         words: the sequence that was planned.
         told: what was looked at.
-        respect: called between attempts; ends the search by an exception when time is up.
     """
 
     work: Workspace
     table: GraspTable
     options: RegraspOptions
     seed: int
-    respect: Callable[[], None]
     reaches: dict[tuple[int, int, int], Reach | Carry] = field(default_factory=dict)
     pairs: dict[tuple[float, ...], _core.RankedPair] = field(default_factory=dict)
     looked: set[tuple[bool, int]] = field(default_factory=set)
@@ -202,7 +199,6 @@ class RegraspSearch:
         # With one put-down a few grasps of each group will do; with more, they must match.
         wanted = self.options.grasps if regrasps == 1 else 10 * self.options.grasps
         for need in needs:
-            self.respect()
             groups = [self.order[group[self.order]].tolist() for group in need.groups]
             with self.work.clock("regrasp"):
                 few = [group[: self.options.grasps] for group in groups]
@@ -224,7 +220,6 @@ class RegraspSearch:
     def try_sequences(self, regrasps: int, direct: DirectOptions, stop_at: int) -> Carry | None:
         """Plan the cheapest sequences, one after the other."""
         while self.tried < stop_at:
-            self.respect()
             with self.work.clock("regrasp"):
                 hops = self.graph.cheapest(regrasps)
             if hops is None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
-from handey.budgets import respect, with_budget
+from handey.budgets import with_budget
 from handey.grasps import Grasp, describe
 from handey.pick_and_place import (
     Carry,
@@ -50,7 +50,6 @@ class Tries:
         work: the goal.
         report: is told of every attempt.
         options: budgets of the rounds.
-        stop_at: deadline by `time.perf_counter` [s].
         waiting: by round, what fell at a gross motion in the round before.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
@@ -59,7 +58,6 @@ class Tries:
     work: Workspace
     report: GoalReport
     options: PlanOptions
-    stop_at: float | None
     waiting: dict[int, list[tuple[str, Reach]]] = field(default_factory=dict)
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
@@ -114,7 +112,6 @@ class Tries:
         return None
 
     def _reach(self, attempt: _Try, round_: int) -> Carry | None:
-        respect(self.stop_at)
         direct = self._budget(round_)
         reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
         if isinstance(reach, Carry):
@@ -125,7 +122,6 @@ class Tries:
         return self._carry(attempt.name, reach, round_)
 
     def _carry(self, name: str, reach: Reach, round_: int) -> Carry | None:
-        respect(self.stop_at)
         carry = carry_through(self.work, reach, self._budget(round_))
         self.report.attempts.append(Attempt(name, carry.stage, carry.reason))
         if carry.stage == "done":

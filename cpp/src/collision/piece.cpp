@@ -158,6 +158,7 @@ std::shared_ptr<const Piece> primitive_piece(const Shape& shape) {
 /// filled.
 void add_solid_mesh(const TriangleMesh& mesh, Pieces& pieces) {
   const std::vector<TriangleMesh> components = connected_components(mesh);
+  throw_if_stopped();
   const bool has_cavity =
       std::any_of(components.begin(), components.end(),
                   [](const TriangleMesh& c) { return inspect_surface(c).volume <= 0.0; });
@@ -166,6 +167,7 @@ void add_solid_mesh(const TriangleMesh& mesh, Pieces& pieces) {
     return;
   }
   for (const TriangleMesh& component : components) {
+    throw_if_stopped();
     pieces.push_back(mesh_piece(component, true, is_convex(component)));
   }
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "handey/collision/checker.hpp"
+#include "handey/stop.hpp"
 #include "ranges.hpp"
 
 namespace handey {
@@ -193,6 +194,7 @@ CompatibleGrasps look_at(Place& place, const std::vector<PartGrasp>& grasps,
         legal += seen->second ? 1 : 0;
         continue;
       }
+      throw_if_stopped();
       CompatibleGrasp result;
       result.grasp = index;
       const Verdict verdict = place.test(grasps[static_cast<std::size_t>(index)], result);
@@ -253,6 +255,7 @@ std::vector<std::vector<double>> reach_margins(const Cell& cell, const Spherical
       for (const int index : groups[g]) {
         const Pose& X_PH = grasps[static_cast<std::size_t>(index)].X_PH;
         if (best[g] >= kMarginEnough) break;
+        throw_if_stopped();
         for (const InverseSolution& solution : solver.solve(X_RP * X_PH).solutions) {
           best[g] = std::max(best[g], joint_margin(*cell.robot, solution));
         }

@@ -9,6 +9,7 @@
 
 #include "candidates.hpp"
 #include "handey/collision/checker.hpp"
+#include "handey/stop.hpp"
 #include "ranges.hpp"
 
 namespace handey {
@@ -114,6 +115,7 @@ std::vector<PartGrasp> sample_part_grasps(const Body& part,
       std::set<int>& groups = in_bin[bin_of(candidate.pose.theta)];
       if (groups.size() >= groups_per_bin && groups.count(candidate.group) == 0) continue;
       for (const bool flipped : {false, true}) {
+        throw_if_stopped();
         PartGrasp grasp;
         grasp.a = pair.pair.a;
         grasp.b = pair.pair.b;
