@@ -9,7 +9,26 @@ from handey.pick_and_place import DirectOptions
 from handey.plan_options import PlanOptions
 from handey.way_out import WayOutOptions
 
-__all__ = ["with_budget"]
+__all__ = ["by_slides", "with_budget"]
+
+
+def by_slides(direct: DirectOptions) -> DirectOptions:
+    """The same without the complete search of approaches, which costs most where there is none."""
+    given = direct.approach
+    approach = _core.ApproachOptions(
+        cell=given.cell,
+        run_in=given.run_in,
+        least_run_in=given.least_run_in,
+        most_slides=given.most_slides,
+        slide=given.slide,
+        legality=given.legality,
+        certificate=given.certificate,
+        contact_share=given.contact_share,
+        destination_obstacles_join=given.destination_obstacles_join,
+        search=given.search,
+        search_levels=0,
+    )
+    return replace(direct, approach=approach)
 
 
 def with_budget(options: PlanOptions, round_: int) -> DirectOptions:

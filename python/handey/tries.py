@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
-from handey.budgets import with_budget
+from handey.budgets import by_slides, with_budget
 from handey.grasps import Grasp, describe
 from handey.pick_and_place import (
     Carry,
@@ -51,6 +51,8 @@ class Tries:
         report: is told of every attempt.
         options: budgets of the rounds.
         waiting: by round, what fell at a gross motion in the round before.
+        slid: grasps to which no slide led, still to be approached by search.
+        stalled: how many of these since one was searched for.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
     """
@@ -59,6 +61,8 @@ class Tries:
     report: GoalReport
     options: PlanOptions
     waiting: dict[int, list[tuple[str, Reach]]] = field(default_factory=dict)
+    slid: list[_Try] = field(default_factory=list)
+    stalled: int = 0
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
 
@@ -73,7 +77,7 @@ class Tries:
             self._announce(f"grasp {self.grasps} of {found}")
             for q_pick in aim.q_pick[:2]:
                 attempt = _Try(describe(pair, aim), pair, aim, q_pick)
-                carry = self._reach(attempt, 0) or self._catch_up()
+                carry = self._slide(attempt) or self._catch_up()
                 if carry is not None:
                     return carry
         return None
@@ -83,6 +87,12 @@ class Tries:
 
         What fell by its budget is tried with the next greater one first.
         """
+        slid, self.slid = self.slid, []
+        for number, attempt in enumerate(slid, 1):
+            self._announce(f"by search, grasp {number} of {len(slid)}")
+            carry = self._reach(attempt, 0)
+            if carry is not None:
+                return carry
         for budget in range(1, round_ + 1):
             waiting = self.waiting.pop(budget, [])
             for number, (name, reach) in enumerate(waiting, 1):
@@ -109,14 +119,34 @@ class Tries:
                 carry = self._carry(*waiting.pop(0), round_)
                 if carry is not None:
                     return carry
+        if self.stalled >= WAITING:
+            self.stalled = 0
+            return self._reach(self.slid.pop(0), 0)
         return None
+
+    def _slide(self, attempt: _Try) -> Carry | None:
+        """The first time: the approach straight or by slides only."""
+        direct = by_slides(self._budget(0))
+        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        if not isinstance(reach, Carry):
+            self.report.add("approached", 1)
+            return self._carry(attempt.name, reach, 0)
+        if reach.stage == "approach" and self.options.direct.approach.search_levels > 0:
+            self.slid.append(attempt)
+            self.stalled += 1
+        else:
+            self._fell(attempt, reach)
+        return None
+
+    def _fell(self, attempt: _Try, carry: Carry) -> None:
+        self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
+        self.fallen.append(attempt)
 
     def _reach(self, attempt: _Try, round_: int) -> Carry | None:
         direct = self._budget(round_)
         reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
         if isinstance(reach, Carry):
-            self.report.attempts.append(Attempt(attempt.name, reach.stage, reach.reason))
-            self.fallen.append(attempt)
+            self._fell(attempt, reach)
             return None
         self.report.add("approached", 1)
         return self._carry(attempt.name, reach, round_)
