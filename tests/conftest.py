@@ -1,4 +1,4 @@
-"""A cell and a plan made by hand, valid: what the tests of the check break."""
+"""What the tests of the check break: a valid cell and plan; and what those of `inspect` look at."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import copy
 
 import pytest
 from hand_made import pick_and_place, write_cell
+from inspected import CELLS, MM, PARTS, ROBOT
+
+from handey.cell_file import load_cell
+from handey.inspection import inspect_cell, inspect_mesh
+from handey.robot_file import load_robot
 
 
 @pytest.fixture(scope="module")
@@ -26,3 +31,18 @@ def valid(cell):
 @pytest.fixture
 def plan(valid):
     return copy.deepcopy(valid)
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return load_robot(ROBOT)[0]
+
+
+@pytest.fixture(scope="module")
+def bracket(robot):
+    return inspect_mesh(PARTS / "bracket.stl", MM, robot)
+
+
+@pytest.fixture(scope="module")
+def demo():
+    return inspect_cell(load_cell(CELLS / "demo.yaml"))
