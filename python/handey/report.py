@@ -15,6 +15,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from handey.advice import Advice
+from handey.reasons import Reason, Stage, Tried
+
 __all__ = [
     "Attempt",
     "GoalReport",
@@ -145,6 +148,12 @@ class GoalReport:
             empty without a grasp.
         exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
         aside: names of parts moved aside for it, in order.
+        stages: the funnel, stage by stage, with typed reasons.
+        cause: the reason that explains the failure best; None without a failure.
+        tried: some of the hand poses looked at, for pictures: all approached, samples of others.
+        proof: why there is certainly no plan, at which resolution; empty where that is not known.
+        covered: what was looked at, in lines for people.
+        advice: the nearest change with which the goal plans; None if none was sought or found.
     """
 
     goal: int
@@ -157,6 +166,12 @@ class GoalReport:
     jaws: dict[str, float] = field(default_factory=dict)
     exhausted: bool = False
     aside: list[str] = field(default_factory=list)
+    stages: list[Stage] = field(default_factory=list)
+    cause: Reason | None = None
+    tried: list[Tried] = field(default_factory=list)
+    proof: str = ""
+    covered: list[str] = field(default_factory=list)
+    advice: Advice | None = None
 
     def fail(self, reasons: list[str]) -> None:
         """It failed before any grasp was looked at."""
@@ -199,6 +214,12 @@ class GoalReport:
             "jaws": self.jaws,
             "aside": self.aside,
             "attempts": [vars(attempt) for attempt in self.attempts],
+            "stages": [stage.as_dict() for stage in self.stages],
+            "cause": None if self.cause is None else self.cause.as_dict(),
+            "tried": [vars(tried) for tried in self.tried],
+            "proof": self.proof,
+            "covered": self.covered,
+            "advice": None if self.advice is None else self.advice.as_dict(),
         }
 
 
