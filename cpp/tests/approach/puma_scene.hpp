@@ -7,28 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "../kinematics/puma.hpp"
 #include "handey/collision/checker.hpp"
 #include "handey/grasp/legality.hpp"
-#include "handey/kinematics/urdf.hpp"
 
 namespace handey::test {
 
-inline std::shared_ptr<const Robot> puma() {
-  static const std::shared_ptr<const Robot> robot = [] {
-    RobotDescription description;
-    description.name = "puma560";
-    description.arm = {"joint1", "joint2", "joint3", "joint4", "joint5", "joint6"};
-    description.home = {0.0, 1.5708, -1.5708, 0.0, 0.0, 0.0};
-    description.gripper_link = "gripper";
-    description.X_LH.translation() = Eigen::Vector3d(0, 0, 0.125);
-    description.fingers = {"left_finger_joint", "right_finger_joint"};
-    description.ignore_collisions = {{"link4", "link6"}, {"left_finger", "right_finger"}};
-    return std::make_shared<const Robot>(
-        load_robot(std::string(HANDEY_MODELS_DIR) + "/robots/puma560/puma560.urdf", description)
-            .robot);
-  }();
-  return robot;
-}
+using testing::puma;
 
 inline Pose at(double x, double y, double z, double yaw = 0.0) {
   return pose_from_xyz_rpy({x, y, z}, {0, 0, yaw});

@@ -7,27 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "../kinematics/puma.hpp"
 #include "handey/geometry/mesh_file.hpp"
-#include "handey/kinematics/urdf.hpp"
 #include "handey/world/cell.hpp"
 
 namespace handey::testing {
-
-inline std::shared_ptr<const Robot> puma() {
-  static const std::shared_ptr<const Robot> robot = [] {
-    RobotDescription d;
-    d.name = "puma560";
-    d.arm = {"joint1", "joint2", "joint3", "joint4", "joint5", "joint6"};
-    d.home = {0.0, 1.5708, -1.5708, 0.0, 0.0, 0.0};
-    d.gripper_link = "gripper";
-    d.X_LH.translation() = Eigen::Vector3d(0, 0, 0.125);
-    d.fingers = {"left_finger_joint", "right_finger_joint"};
-    d.ignore_collisions = {{"link4", "link6"}, {"left_finger", "right_finger"}};
-    return std::make_shared<const Robot>(
-        load_robot(std::string(HANDEY_MODELS_DIR) + "/robots/puma560/puma560.urdf", d).robot);
-  }();
-  return robot;
-}
 
 inline Pose at(double x, double y, double z) {
   Pose pose = Pose::Identity();

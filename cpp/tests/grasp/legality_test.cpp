@@ -12,31 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "../kinematics/puma.hpp"
 #include "handey/errors.hpp"
-#include "handey/kinematics/urdf.hpp"
 #include "parts.hpp"
 
 namespace handey {
 namespace {
 
 using testing::box_body;
+using testing::puma;
 using testing::translation;
-
-std::shared_ptr<const Robot> puma() {
-  static const std::shared_ptr<const Robot> robot = [] {
-    RobotDescription description;
-    description.name = "puma560";
-    description.arm = {"joint1", "joint2", "joint3", "joint4", "joint5", "joint6"};
-    description.home = {0.0, 1.5708, -1.5708, 0.0, 0.0, 0.0};
-    description.gripper_link = "gripper";
-    description.X_LH.translation() = Eigen::Vector3d(0, 0, 0.125);
-    description.fingers = {"left_finger_joint", "right_finger_joint"};
-    description.ignore_collisions = {{"link4", "link6"}, {"left_finger", "right_finger"}};
-    const std::string urdf = std::string(HANDEY_MODELS_DIR) + "/robots/puma560/puma560.urdf";
-    return std::make_shared<const Robot>(load_robot(urdf, description).robot);
-  }();
-  return robot;
-}
 
 Cell puma_bench() {
   Cell cell;

@@ -17,7 +17,7 @@ namespace handey {
 namespace {
 
 using testing::block_on_bench;
-using testing::load_puma;
+using testing::puma;
 
 const RankedPair* pair_of(const Ranking& ranking, const PartGrasp& grasp) {
   for (const RankedPair& ranked : ranking.ranked) {
@@ -28,8 +28,8 @@ const RankedPair* pair_of(const Ranking& ranking, const PartGrasp& grasp) {
 
 TEST(PartGrasps, EachIsAHandPoseOfItsPairWithContact) {
   const Body block = block_on_bench().parts.front();
-  const Ranking ranking = rank_part_alone(block, load_puma());
-  const std::vector<PartGrasp> grasps = sample_part_grasps(block, load_puma());
+  const Ranking ranking = rank_part_alone(block, puma());
+  const std::vector<PartGrasp> grasps = sample_part_grasps(block, puma());
   ASSERT_GT(grasps.size(), 500u);
   for (const PartGrasp& grasp : grasps) {
     const RankedPair* pair = pair_of(ranking, grasp);
@@ -38,9 +38,9 @@ TEST(PartGrasps, EachIsAHandPoseOfItsPairWithContact) {
     EXPECT_TRUE(grasp.X_PH.isApprox(X_PH, 1e-12));
     // Of an edge or a vertex, the strip or square that stands for it.
     const double least = pair->pair.kind == PairKind::FaceFace ? 30e-6 : 1e-9;
-    EXPECT_GT(pad_contact_area(pair->unobstructed, grasp.in_plane, load_puma()->gripper), least);
+    EXPECT_GT(pad_contact_area(pair->unobstructed, grasp.in_plane, puma()->gripper), least);
     EXPECT_GT(grasp.width, 0.0);
-    EXPECT_LE(grasp.width + 0.004, load_puma()->gripper.max_opening);
+    EXPECT_LE(grasp.width + 0.004, puma()->gripper.max_opening);
   }
 }
 
@@ -63,8 +63,8 @@ TEST(PartGrasps, FewerWhereFewerAreAskedForAndEveryDirectionKeepsSome) {
   const Body block = block_on_bench().parts.front();
   PartGraspOptions options;
   options.most = 600;
-  const std::vector<PartGrasp> grasps = sample_part_grasps(block, load_puma(), options);
-  EXPECT_LT(2 * grasps.size(), sample_part_grasps(block, load_puma()).size());
+  const std::vector<PartGrasp> grasps = sample_part_grasps(block, puma(), options);
+  EXPECT_LT(2 * grasps.size(), sample_part_grasps(block, puma()).size());
   std::set<int> directions;
   for (const PartGrasp& grasp : grasps) {
     directions.insert(static_cast<int>(std::lround(grasp.in_plane.theta * 4.0 / 3.14159265)));
@@ -98,7 +98,7 @@ TEST(PartGrasps, RefuseWhatIsMissing) {
   EXPECT_THROW(clears_plane(nullptr, {}, Pose::Identity()), InvalidInput);
   PartGraspOptions options;
   options.most = 0;
-  EXPECT_THROW(sample_part_grasps(block, load_puma(), options), InvalidInput);
+  EXPECT_THROW(sample_part_grasps(block, puma(), options), InvalidInput);
 }
 
 }  // namespace
