@@ -50,6 +50,7 @@ class PlanOptions:
             obstacles, where the local planners gave no way.
         thorough: the last round may take all the time that its gross motions want.
         regrasp: budgets of step 7.
+        prove: look for a proof that there is no plan where the first tries fail.
 
     Raises:
         TypeError: if a number is none.
@@ -67,6 +68,7 @@ class PlanOptions:
     most_by_arm: int = 4
     thorough: bool = True
     regrasp: RegraspOptions = field(default_factory=RegraspOptions)
+    prove: bool = True
 
     def __post_init__(self) -> None:
         _require_whole("seed", self.seed, 0, GREATEST_SEED)
