@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from inspected import CELLS, MM, PARTS, ROBOT, run
 
-from handey.inspection.text import direction, listed
+from handey.inspection.lines import direction, listed
 
 
 @pytest.mark.parametrize(

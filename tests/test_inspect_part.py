@@ -12,7 +12,7 @@ from inspected import BOX, MM, PARTS, SHARED, box_corners, triangles, write_obj
 from handey import _core
 from handey.inspection import inspect_body, inspect_mesh
 from handey.inspection.page import write_page
-from handey.inspection.text import part_lines
+from handey.inspection.part_text import part_lines
 
 
 def test_a_box_has_six_ways_to_stand_and_three_pairs_of_faces(tmp_path, robot):

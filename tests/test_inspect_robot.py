@@ -14,7 +14,7 @@ from handey import _core
 from handey.cell_file import load_cell
 from handey.inspection import inspect_cell, inspect_robot
 from handey.inspection.page import write_page
-from handey.inspection.text import robot_lines
+from handey.inspection.robot_text import robot_lines
 from handey.robot_file import load_robot
 
 

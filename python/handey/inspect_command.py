@@ -137,7 +137,9 @@ def _yaml_kind(file: str) -> str:
 
 def _lines(report: PartReport | RobotReport | CellReport, verbose: bool) -> list[str]:
     from handey.inspection import PartReport, RobotReport
-    from handey.inspection.text import cell_lines, part_lines, robot_lines
+    from handey.inspection.cell_text import cell_lines
+    from handey.inspection.part_text import part_lines
+    from handey.inspection.robot_text import robot_lines
 
     if isinstance(report, PartReport):
         return part_lines(report, verbose)
