@@ -115,6 +115,7 @@ void bind_feature_pair(py::module_& m) {
       .def_readonly("b", &RejectedPair::b, "Feature.")
       .def_readonly("width", &RejectedPair::width, "[m]")
       .def_readonly("kind", &RejectedPair::kind)
+      .def_readonly("by", &RejectedPair::by, "How much is lacking [m]; of an overlap [m2].")
       .def_readonly("reason", &RejectedPair::reason, "For people, with numbers.")
       .def("__str__", [](const RejectedPair& self) { return to_string(self.a, self.b); });
 }
@@ -268,6 +269,10 @@ void bind_ranking_types(py::module_& m) {
       .def_readonly("contact_a", &RankedPair::contact_a, "FeaturePair's, unobstructed.")
       .def_readonly("contact_b", &RankedPair::contact_b, "FeaturePair's, unobstructed.")
       .def_readonly("obstructing", &RankedPair::obstructing, "Names of what obstructs.")
+      .def_readonly("obstructing_at_origin", &RankedPair::obstructing_at_origin,
+                    "Names of bodies that do there.")
+      .def_readonly("obstructing_at_destination", &RankedPair::obstructing_at_destination,
+                    "Names of bodies that do there.")
       .def_property_readonly(
           "targets", [](const RankedPair& self) { return rows_of<2>(self.targets); },
           "Fingertip targets in G, best first, (n, 2) [m].")

@@ -70,6 +70,32 @@ Args:
       .def_readonly("merit", &GraspPose::merit, "Larger is better, 0..1.")
       .def_readonly("q_pick", &GraspPose::q_pick, "Legal at the origin: list of (dof,) [rad].")
       .def_readonly("q_place", &GraspPose::q_place, "Legal at the destination.");
+  py::enum_<FallKind>(m, "FallKind", "The test at which hand poses fell.")
+      .value("LittleContact", FallKind::LittleContact)
+      .value("Slips", FallKind::Slips)
+      .value("Turns", FallKind::Turns)
+      .value("OutOfReach", FallKind::OutOfReach)
+      .value("JointLimit", FallKind::JointLimit)
+      .value("Collision", FallKind::Collision);
+  py::enum_<GraspEnd>(m, "GraspEnd", "Where the part stands meanwhile.")
+      .value("Both", GraspEnd::Both)
+      .value("Origin", GraspEnd::Origin)
+      .value("Destination", GraspEnd::Destination);
+  py::class_<Fallen>(m, "Fallen", "Hand poses that fell alike, with the nearest of them.")
+      .def_readonly("kind", &Fallen::kind)
+      .def_readonly("end", &Fallen::end)
+      .def_readonly("mover", &Fallen::mover, "Of a collision: link of the robot, or 'hand'.")
+      .def_readonly("body", &Fallen::body, "That it met.")
+      .def_readonly("joint", &Fallen::joint, "Index of the joint past its limit; -1: none.")
+      .def_readonly("count", &Fallen::count)
+      .def_readonly("least", &Fallen::least,
+                    "By which the nearest missed [m], of a joint [rad]; None: not known.")
+      .def_readonly("text", &Fallen::text, "Of the nearest, without its end.")
+      .def_property_readonly(
+          "X_PH", [](const Fallen& self) { return matrix(self.X_PH); },
+          "Grasp frame of the nearest in the part, (4, 4).")
+      .def_readonly("opening", &Fallen::opening, "As that hand comes [m]; 0: not looked at.")
+      .def_readonly("width", &Fallen::width, "Of that hand, closed on the part [m].");
   py::class_<LegalGrasps>(m, "LegalGrasps", "Legal grasps of a pair, and why others are not.")
       .def_readonly("poses", &LegalGrasps::poses, "GraspPose, best merit first.")
       .def_readonly("tried", &LegalGrasps::tried, "Candidates looked at.")
@@ -80,6 +106,7 @@ Args:
       .def_readonly("unreachable_at_destination", &LegalGrasps::unreachable_at_destination)
       .def_readonly("collides_at_origin", &LegalGrasps::collides_at_origin)
       .def_readonly("collides_at_destination", &LegalGrasps::collides_at_destination)
+      .def_readonly("fallen", &LegalGrasps::fallen, "Fallen, most frequent first.")
       .def_readonly("worst_reason", &LegalGrasps::worst_reason, "The reason met most often.");
 }
 

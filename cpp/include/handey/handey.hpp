@@ -36,6 +36,7 @@
 // grasp
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/compatibility.hpp"
+#include "handey/grasp/fallen.hpp"
 #include "handey/grasp/features.hpp"
 #include "handey/grasp/legality.hpp"
 #include "handey/grasp/part_grasps.hpp"

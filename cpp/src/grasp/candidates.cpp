@@ -191,13 +191,19 @@ bool CandidateMaker::add(const Candidate& drawn_back, bool is_first, CandidateLi
   candidate.contact_area = contact.area;
   if (!demand_.is_met(contact)) {
     // Drawn back until the contact is gone: not one more way that failed.
-    if (is_first) ++list.too_little_contact;
+    if (!is_first) return false;
+    ++list.too_little_contact;
+    if (contact.area > list.most_contact) {
+      list.most_contact = contact.area;
+      list.little_contact = candidate.pose;
+    }
     return false;
   }
   const double excess = hold_.excess(pair_, contact);
   if (excess > 0.0) {
-    if (list.would_turn++ == 0 || excess < least_excess_) {
-      least_excess_ = excess;
+    if (list.would_turn++ == 0 || excess < list.least_excess) {
+      list.least_excess = excess;
+      list.turning = candidate.pose;
       list.turn_reason = hold_.reason(pair_, contact);
     }
     return true;

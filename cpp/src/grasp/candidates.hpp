@@ -34,6 +34,10 @@ struct CandidateList {
   int too_little_contact = 0;  ///< target and direction where the pad at the target has too little
   int would_turn = 0;          ///< where there is contact, but the part's weight would turn it
   std::string turn_reason;     ///< of the one that misses least
+  PlanarPose little_contact;   ///< the one that has most of these
+  double most_contact = -1.0;  ///< that it has [m2]
+  PlanarPose turning;          ///< the one that misses least
+  double least_excess = 0.0;   ///< by which it does [m]
 };
 
 /// Makes candidates slot by slot: a slot is a place for the pads and a direction of the hand.
@@ -60,7 +64,6 @@ class CandidateMaker {
   std::vector<char> along_edge_;  ///< per direction
   std::vector<Eigen::Vector2d> places_;
   std::size_t targets_ = 0;  ///< the first of the places
-  double least_excess_ = 0.0;
 };
 
 /// All of them, most promising first.

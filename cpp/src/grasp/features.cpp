@@ -178,9 +178,13 @@ class PairFinder {
   std::optional<RejectedPair> reject(const FeaturePair& pair) const {
     std::optional<RejectedPair> rejected = grasp::reject_width(pair, gripper_, options_);
     if (rejected || pair.area >= options_.least_overlap) return rejected;
-    return RejectedPair{pair.a, pair.b, pair.width, Rejection::LittleOverlap,
+    return RejectedPair{pair.a,
+                        pair.b,
+                        pair.width,
+                        Rejection::LittleOverlap,
                         "faces overlap by " + one_decimal(pair.area * 1e6) + " mm2, at least " +
-                            one_decimal(options_.least_overlap * 1e6) + " mm2 are needed"};
+                            one_decimal(options_.least_overlap * 1e6) + " mm2 are needed",
+                        options_.least_overlap - pair.area};
   }
 
   const PlanarFace& face(int index) const { return result_.faces[static_cast<std::size_t>(index)]; }

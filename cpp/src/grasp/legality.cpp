@@ -108,6 +108,15 @@ std::string too_little_contact(const RankedPair& pair, const grasp::ContactDeman
   return "a point of contact is not 1 mm inside the pad or next to an obstacle";
 }
 
+// A pose that is not looked at further.
+GraspPose hand_pose_of(const RankedPair& pair, const PlanarPose& in_plane) {
+  GraspPose pose;
+  pose.in_plane = in_plane;
+  pose.X_PH = pair.pair.X_PG * hand_in_plane(in_plane, false);
+  pose.width = pair.pair.width_at({in_plane.x, in_plane.y});
+  return pose;
+}
+
 }  // namespace
 
 struct LegalGraspSearch::Impl {
@@ -167,11 +176,19 @@ struct LegalGraspSearch::Impl {
     result.too_little_contact += contact;
     result.would_turn += turn;
     result.tried += contact + turn;
-    for (int i = 0; i < contact; ++i) {
-      tally.add(grasp::Stage::Contact, "contact", too_little_contact(pair, demand));
+    if (contact > 0) {
+      tally.add({FallKind::LittleContact, GraspEnd::Both, -1, "", ""}, posed(list.little_contact),
+                too_little_contact(pair, demand), std::nullopt, contact);
     }
-    for (int i = 0; i < turn; ++i) tally.add(grasp::Stage::Hold, "turn", list.turn_reason);
+    if (turn > 0) {
+      const bool slips = hold.slips();
+      tally.add({slips ? FallKind::Slips : FallKind::Turns, GraspEnd::Both, -1, "", ""},
+                posed(list.turning), list.turn_reason,
+                slips ? std::nullopt : std::optional<double>(list.least_excess), turn);
+    }
   }
+
+  GraspPose posed(const PlanarPose& in_plane) const { return hand_pose_of(pair, in_plane); }
 
   void test(const grasp::Candidate& candidate) {
     for (const bool flipped : {false, true}) test(candidate, flipped);
@@ -237,6 +254,7 @@ std::vector<GraspPose> LegalGraspSearch::next(int candidates) {
 LegalGrasps LegalGraspSearch::result() const {
   LegalGrasps result = impl_->result;
   result.poses = best_first(std::move(result.poses));
+  result.fallen = impl_->tally.list();
   result.worst_reason = impl_->tally.worst(result.tried);
   return result;
 }
@@ -268,12 +286,15 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
   grasp_pose.contact_area = contact.area;
   if (!demand.is_met(contact)) {
     result.too_little_contact = 1;
-    tally.add(grasp::Stage::Contact, "contact",
+    tally.add({FallKind::LittleContact, GraspEnd::Both, -1, "", ""}, hand_pose_of(pair, pose),
               "a pad has " + amount(pair, contact.area) + " of contact on the free features, " +
                   amount(pair, demand.required) + " are needed");
   } else if (hold.excess(pair, contact) > 0.0) {
     result.would_turn = 1;
-    tally.add(grasp::Stage::Hold, "turn", hold.reason(pair, contact));
+    const bool slips = hold.slips();
+    tally.add({slips ? FallKind::Slips : FallKind::Turns, GraspEnd::Both, -1, "", ""},
+              hand_pose_of(pair, pose), hold.reason(pair, contact),
+              slips ? std::nullopt : std::optional<double>(hold.excess(pair, contact)));
   } else {
     const grasp::PoseVerdict verdict =
         grasp::PoseTester(scene, solver, options).test(pair.pair, grasp_pose, tally);
@@ -285,6 +306,7 @@ LegalGrasps test_grasp_pose(const GraspScene& scene, const SphericalWristSolver&
       result.poses.push_back(std::move(grasp_pose));
     }
   }
+  result.fallen = tally.list();
   result.worst_reason = tally.worst(1);
   return result;
 }

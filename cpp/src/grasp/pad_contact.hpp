@@ -26,6 +26,8 @@ class Hold {
   double reach(const PadContact& contact) const;
   /// By how much that is exceeded [m]; 0 or less if the part is held.
   double excess(const RankedPair& pair, const PadContact& contact) const;
+  /// Friction does not carry the part's weight, wherever it is held.
+  bool slips() const { return ratio_ <= 1.0; }
   /// Why the part is not held, with numbers.
   std::string reason(const RankedPair& pair, const PadContact& contact) const;
 

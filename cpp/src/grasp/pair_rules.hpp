@@ -45,6 +45,7 @@ inline std::optional<RejectedPair> reject_width(const FeaturePair& pair, const G
                       millimetres(options.jaw_clearance) + " mm clearance each side, jaws open " +
                       millimetres(gripper.max_opening) +
                       " mm: " + millimetres(needed - gripper.max_opening) + " mm short";
+    rejected.by = needed - gripper.max_opening;
     return rejected;
   }
   if (pair.width < gripper.min_opening) {
@@ -52,6 +53,7 @@ inline std::optional<RejectedPair> reject_width(const FeaturePair& pair, const G
     rejected.reason = millimetres(pair.width) + " mm wide, jaws close to " +
                       millimetres(gripper.min_opening) +
                       " mm: " + millimetres(gripper.min_opening - pair.width) + " mm too thin";
+    rejected.by = gripper.min_opening - pair.width;
     return rejected;
   }
   return std::nullopt;

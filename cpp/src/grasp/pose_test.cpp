@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "ranges.hpp"
 
@@ -24,31 +25,69 @@ void add_names(std::set<std::string>& names, const RobotBody& body) {
 
 }  // namespace
 
-void Tally::add(Stage stage, const std::string& kind, const std::string& text, double excess) {
-  Reason& reason = reasons_[{stage, kind}];
-  if (reason.count == 0 || excess < reason.excess) {
-    reason.text = text;
-    reason.excess = excess;
+bool FallKey::operator<(const FallKey& other) const {
+  return std::tie(kind, end, joint, mover, body) <
+         std::tie(other.kind, other.end, other.joint, other.mover, other.body);
+}
+
+void Tally::add(const FallKey& key, const GraspPose& pose, const std::string& text,
+                std::optional<double> least, int count) {
+  Fallen& fallen = fallen_[key];
+  const bool is_first = fallen.count == 0;
+  fallen.count += count;
+  if (!is_first && !(least && (!fallen.least || *least < *fallen.least))) return;
+  fallen.least = least;
+  fallen.text = text;
+  fallen.X_PH = pose.X_PH;
+  fallen.opening = pose.opening;
+  fallen.width = pose.width;
+}
+
+std::vector<Fallen> Tally::list() const {
+  std::vector<Fallen> list;
+  for (const auto& [key, fallen] : fallen_) {
+    list.push_back(fallen);
+    list.back().kind = key.kind;
+    list.back().end = key.end;
+    list.back().joint = key.joint;
+    list.back().mover = key.mover;
+    list.back().body = key.body;
   }
-  ++reason.count;
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Fallen& a, const Fallen& b) { return a.count > b.count; });
+  return list;
 }
 
 std::string Tally::worst(int tried) const {
-  const Reason* worst = nullptr;
-  Stage farthest = Stage::Contact;
-  for (const auto& [key, reason] : reasons_) {
-    if (worst == nullptr || key.first > farthest || reason.count > worst->count) worst = &reason;
-    farthest = key.first;  // the map is ordered by stage
+  // How far a candidate got: contact, hold, reach at either end, collision at either end.
+  const auto rank = [](const FallKey& key) {
+    const bool reached = key.kind == FallKind::Collision;
+    const bool unreachable = key.kind == FallKind::OutOfReach || key.kind == FallKind::JointLimit;
+    const int end = key.end == GraspEnd::Destination ? 1 : 0;
+    return reached ? 4 + end : unreachable ? 2 + end : static_cast<int>(key.kind);
+  };
+  const FallKey* key = nullptr;
+  const Fallen* worst = nullptr;
+  for (const auto& [other, fallen] : fallen_) {
+    if (worst != nullptr &&
+        (rank(other) < rank(*key) || (rank(other) == rank(*key) && fallen.count <= worst->count))) {
+      continue;
+    }
+    key = &other;
+    worst = &fallen;
   }
   if (worst == nullptr) return "";
-  return worst->text + ": " + std::to_string(worst->count) + " of " + std::to_string(tried);
+  const std::string end = key->end == GraspEnd::Both     ? ""
+                          : key->end == GraspEnd::Origin ? " (origin)"
+                                                         : " (destination)";
+  return worst->text + end + ": " + std::to_string(worst->count) + " of " + std::to_string(tried);
 }
 
-PoseTester::End PoseTester::make_end(const GraspScene& scene, const Pose& X_WP, const char* label) {
+PoseTester::End PoseTester::make_end(const GraspScene& scene, const Pose& X_WP, GraspEnd end) {
   const Cell cell = scene.cell.with_part_at(scene.part, X_WP);
   Allowance closed;
   closed.closed_on = scene.part;
-  return {label, cell.X_WR.inverse() * X_WP, CollisionChecker(scene.model, cell),
+  return {end, cell.X_WR.inverse() * X_WP, CollisionChecker(scene.model, cell),
           CollisionChecker(scene.model, cell, closed)};
 }
 
@@ -57,9 +96,9 @@ PoseTester::PoseTester(const GraspScene& scene, const SphericalWristSolver& solv
     : scene_(scene),
       solver_(solver),
       options_(options),
-      origin_(
-          make_end(scene, scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB, "origin")),
-      destination_(make_end(scene, scene.X_WP_goal, "destination")) {
+      origin_(make_end(scene, scene.cell.parts[static_cast<std::size_t>(scene.part)].X_WB,
+                       GraspEnd::Origin)),
+      destination_(make_end(scene, scene.X_WP_goal, GraspEnd::Destination)) {
   const Robot& robot = *scene.cell.robot;
   for (const RobotBody& body : robot.bodies) add_names(robot_links_, body);
   for (const FingerJoint& finger : robot.gripper.fingers) {
@@ -85,15 +124,14 @@ std::vector<double> PoseTester::openings(double width) const {
   return openings;
 }
 
-std::vector<InverseSolution> PoseTester::inverse(const End& end, const Pose& X_PH,
+std::vector<InverseSolution> PoseTester::inverse(const End& end, const GraspPose& pose,
                                                  Tally& tally) const {
-  InverseResult result = solver_.solve(end.X_RP * X_PH);
+  InverseResult result = solver_.solve(end.X_RP * pose.X_PH);
   if (result.solutions.empty()) {
-    const std::string kind = std::string(end.label) +
-                             std::to_string(static_cast<int>(result.status)) + "/" +
-                             std::to_string(result.joint);
-    const Stage stage = &end == &origin_ ? Stage::ReachOrigin : Stage::ReachDestination;
-    tally.add(stage, kind, result.reason + " (" + end.label + ")", result.excess);
+    const bool limited = result.status == InverseStatus::OutsideLimits;
+    tally.add({limited ? FallKind::JointLimit : FallKind::OutOfReach, end.end,
+               limited ? result.joint : -1, "", ""},
+              pose, result.reason, result.excess);
   }
   return std::move(result.solutions);
 }
@@ -173,9 +211,9 @@ std::vector<Eigen::VectorXd> PoseTester::soonest_first(
 PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& tally) {
   pose.X_PH = pair.X_PG * hand_in_plane(pose.in_plane, pose.flipped);
   pose.width = pair.width_at({pose.in_plane.x, pose.in_plane.y});
-  const std::vector<InverseSolution> at_origin = inverse(origin_, pose.X_PH, tally);
+  const std::vector<InverseSolution> at_origin = inverse(origin_, pose, tally);
   if (at_origin.empty()) return PoseVerdict::UnreachableAtOrigin;
-  const std::vector<InverseSolution> at_destination = inverse(destination_, pose.X_PH, tally);
+  const std::vector<InverseSolution> at_destination = inverse(destination_, pose, tally);
   if (at_destination.empty()) return PoseVerdict::UnreachableAtDestination;
 
   PoseVerdict verdict = PoseVerdict::CollidesAtOrigin;
@@ -200,9 +238,8 @@ PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& ta
     const bool narrower_helps = obstacle && obstacle->of_finger;
     if (narrower_helps && opening > openings(pose.width).back() + 1e-6) continue;
     if (obstacle) {
-      const std::string text = display_name(obstacle->hit.a) + " hits " +
-                               display_name(obstacle->hit.b) + " (" + end->label + ")";
-      tally.add(end == &origin_ ? Stage::ClearOrigin : Stage::ClearDestination, text, text);
+      const std::string mover = display_name(obstacle->hit.a), body = display_name(obstacle->hit.b);
+      tally.add({FallKind::Collision, end->end, -1, mover, body}, pose, mover + " hits " + body);
     }
     break;
   }

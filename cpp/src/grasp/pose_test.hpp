@@ -12,26 +12,30 @@
 
 namespace handey::grasp {
 
-/// The tests of a candidate in their order.
-enum class Stage { Contact, Hold, ReachOrigin, ReachDestination, ClearOrigin, ClearDestination };
+/// What candidates that fell are counted by, in the order of the tests.
+struct FallKey {
+  FallKind kind = FallKind::Collision;
+  GraspEnd end = GraspEnd::Both;
+  int joint = -1;
+  std::string mover, body;
+  bool operator<(const FallKey& other) const;
+};
 
 /// Counts why candidates fell.
 class Tally {
  public:
-  /// @param kind  what is counted together  @param text  how it reads  @param excess  the text of
-  /// the least is kept
-  void add(Stage stage, const std::string& kind, const std::string& text, double excess = 0.0);
-  /// "text: 14 of 48" for the kind met most often among the candidates that got farthest, because
-  /// that is what stands in the way; empty if none fell.
+  /// @param text  how it reads  @param least  by how much it missed: text and pose of the least are
+  /// kept, or the first if that is not known
+  void add(const FallKey& key, const GraspPose& pose, const std::string& text,
+           std::optional<double> least = std::nullopt, int count = 1);
+  /// Most frequent first.
+  std::vector<Fallen> list() const;
+  /// "text (end): 14 of 48" for what is met most often among the candidates that got farthest,
+  /// because that is what stands in the way; empty if none fell.
   std::string worst(int tried) const;
 
  private:
-  struct Reason {
-    int count = 0;
-    std::string text;
-    double excess = 0.0;
-  };
-  std::map<std::pair<Stage, std::string>, Reason> reasons_;
+  std::map<FallKey, Fallen> fallen_;
 };
 
 enum class PoseVerdict {
@@ -54,8 +58,8 @@ class PoseTester {
 
  private:
   struct End {
-    const char* label;  // for reasons
-    Pose X_RP;          // the part in the robot's frame
+    GraspEnd end;
+    Pose X_RP;  // the part in the robot's frame
     CollisionChecker free_hand;
     CollisionChecker closed_hand;
   };
@@ -64,9 +68,9 @@ class PoseTester {
     bool of_hand = false;    // the hand itself: no other configuration of the same pose helps
     bool of_finger = false;  // a narrower opening may help
   };
-  static End make_end(const GraspScene& scene, const Pose& X_WP, const char* label);
+  static End make_end(const GraspScene& scene, const Pose& X_WP, GraspEnd end);
 
-  std::vector<InverseSolution> inverse(const End& end, const Pose& X_PH, Tally& tally) const;
+  std::vector<InverseSolution> inverse(const End& end, const GraspPose& pose, Tally& tally) const;
   /// The legal ones of `solutions`, or the obstacle of the last.
   std::vector<InverseSolution> collision_free(End& end,
                                               const std::vector<InverseSolution>& solutions,

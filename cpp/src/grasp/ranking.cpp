@@ -52,7 +52,7 @@ class Ranker {
     ranked.pair = pair;
     ranked.centre_of_mass = (pair.X_PG.inverse() * p_centre_).head<2>();
     Region blocked = obstruction_.own(pair);
-    note(ranked, blocked, "the part itself");
+    if (covers(ranked, blocked)) ranked.obstructing.push_back("the part itself");
     blocked = unite({blocked, obstacles(ranked, false)});
     ranked.unobstructed = subtract(pair.overlap, blocked);
     ranked.share_at_origin = area(ranked.unobstructed) / pair.area;
@@ -102,15 +102,20 @@ class Ranker {
       const Body& body = cell_.body(near.body);
       Region region = obstruction_.of_body(ranked.pair, body, near.X_PB, reach_of(gripper_));
       if (region.empty()) continue;
-      note(ranked, region, at_destination ? near.name + " (destination)" : near.name);
+      if (covers(ranked, region)) note(ranked, near);
       found.push_back(std::move(region));
     }
     return found.empty() ? Region{} : unite(found);
   }
 
-  static void note(RankedPair& ranked, const Region& region, const std::string& name) {
-    if (region.empty() || area(intersect(ranked.pair.overlap, region)) < kNoArea) return;
-    ranked.obstructing.push_back(name);
+  static bool covers(const RankedPair& ranked, const Region& region) {
+    return !region.empty() && area(intersect(ranked.pair.overlap, region)) >= kNoArea;
+  }
+
+  static void note(RankedPair& ranked, const NearbyBody& near) {
+    ranked.obstructing.push_back(near.at_destination ? near.name + " (destination)" : near.name);
+    (near.at_destination ? ranked.obstructing_at_destination : ranked.obstructing_at_origin)
+        .push_back(near.name);
   }
 
   // The most that a pad can have of the overlap.

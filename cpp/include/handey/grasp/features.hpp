@@ -89,6 +89,7 @@ struct RejectedPair {
   Rejection kind = Rejection::TooWide;
   std::string
       reason;  ///< "88.2 mm wide and 2.0 mm clearance each side, jaws open 85.0 mm: 7.2 mm short"
+  double by = 0.0;  ///< how much is lacking [m]; of an overlap [m2]
 };
 
 struct FeatureOptions {

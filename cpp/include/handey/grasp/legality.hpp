@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "handey/collision/checker.hpp"
+#include "handey/grasp/fallen.hpp"
 #include "handey/grasp/ranking.hpp"
 #include "handey/kinematics/spherical_wrist.hpp"
 
@@ -72,8 +73,9 @@ struct LegalGrasps {
   // How many candidates fell, and where:
   int tried = 0, too_little_contact = 0, would_turn = 0, unreachable_at_origin = 0,
       unreachable_at_destination = 0, collides_at_origin = 0, collides_at_destination = 0;
-  std::string worst_reason;  ///< of those that got farthest, the one met most often: "hand hits
-                             ///< table (destination): 14 of 48"; empty if none fell
+  std::vector<Fallen> fallen;  ///< the same with what stood in the way; most frequent first
+  std::string worst_reason;    ///< of those that got farthest, the one met most often: "hand hits
+                               ///< table (destination): 14 of 48"; empty if none fell
 };
 
 /// Candidates are tested in the order of the part of their merit that costs nothing to know.

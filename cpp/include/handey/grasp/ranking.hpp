@@ -45,6 +45,8 @@ struct RankedPair {
   Region contact_a, contact_b;  ///< FeaturePair's, unobstructed; empty for two faces
   std::vector<std::string>
       obstructing;  ///< names: "block", "rack (destination)", "the part itself"
+  std::vector<std::string> obstructing_at_origin;            ///< names of bodies
+  std::vector<std::string> obstructing_at_destination;       ///< the same
   std::vector<Eigen::Vector2d> targets;                      ///< fingertip targets, best first
   Eigen::Vector2d centre_of_mass = Eigen::Vector2d::Zero();  ///< of the part, in (x, y) of G [m]
 };
