@@ -42,6 +42,8 @@ __all__: list[str] = [
     "DepthMapOptions",
     "EdgeResult",
     "EdgeStatus",
+    "FallKind",
+    "Fallen",
     "Feature",
     "FeatureKind",
     "FeatureOptions",
@@ -49,6 +51,7 @@ __all__: list[str] = [
     "FeaturePairs",
     "FingerJoint",
     "FreeSpaceOptions",
+    "GraspEnd",
     "GraspPose",
     "GraspScene",
     "Gripper",
@@ -1822,6 +1825,11 @@ class RejectedPair:
         Feature.
         """
     @property
+    def by(self) -> float:
+        """
+        How much is lacking [m]; of an overlap [m2].
+        """
+    @property
     def kind(self) -> Rejection: ...
     @property
     def reason(self) -> str:
@@ -2105,6 +2113,16 @@ class RankedPair:
         Names of what obstructs.
         """
     @property
+    def obstructing_at_destination(self) -> list[str]:
+        """
+        Names of bodies that do there.
+        """
+    @property
+    def obstructing_at_origin(self) -> list[str]:
+        """
+        Names of bodies that do there.
+        """
+    @property
     def pair(self) -> FeaturePair:
         """
         FeaturePair.
@@ -2331,6 +2349,142 @@ class GraspPose:
         Opening when closed on the part [m].
         """
 
+class FallKind:
+    """
+    The test at which hand poses fell.
+
+    Members:
+
+      LittleContact
+
+      Slips
+
+      Turns
+
+      OutOfReach
+
+      JointLimit
+
+      Collision
+    """
+
+    Collision: typing.ClassVar[FallKind]
+    JointLimit: typing.ClassVar[FallKind]
+    LittleContact: typing.ClassVar[FallKind]
+    OutOfReach: typing.ClassVar[FallKind]
+    Slips: typing.ClassVar[FallKind]
+    Turns: typing.ClassVar[FallKind]
+    __members__: typing.ClassVar[dict[str, FallKind]]
+    @typing.overload
+    def __eq__(self, other: FallKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FallKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class GraspEnd:
+    """
+    Where the part stands meanwhile.
+
+    Members:
+
+      Both
+
+      Origin
+
+      Destination
+    """
+
+    Both: typing.ClassVar[GraspEnd]
+    Destination: typing.ClassVar[GraspEnd]
+    Origin: typing.ClassVar[GraspEnd]
+    __members__: typing.ClassVar[dict[str, GraspEnd]]
+    @typing.overload
+    def __eq__(self, other: GraspEnd) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: GraspEnd) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Fallen:
+    """
+    Hand poses that fell alike, with the nearest of them.
+    """
+    @property
+    def X_PH(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        Grasp frame of the nearest in the part, (4, 4).
+        """
+    @property
+    def body(self) -> str:
+        """
+        That it met.
+        """
+    @property
+    def count(self) -> int: ...
+    @property
+    def end(self) -> GraspEnd: ...
+    @property
+    def joint(self) -> int:
+        """
+        Index of the joint past its limit; -1: none.
+        """
+    @property
+    def kind(self) -> FallKind: ...
+    @property
+    def least(self) -> float | None:
+        """
+        By which the nearest missed [m], of a joint [rad]; None: not known.
+        """
+    @property
+    def mover(self) -> str:
+        """
+        Of a collision: link of the robot, or 'hand'.
+        """
+    @property
+    def opening(self) -> float:
+        """
+        As that hand comes [m]; 0: not looked at.
+        """
+    @property
+    def text(self) -> str:
+        """
+        Of the nearest, without its end.
+        """
+    @property
+    def width(self) -> float:
+        """
+        Of that hand, closed on the part [m].
+        """
+
 class LegalGrasps:
     """
     Legal grasps of a pair, and why others are not.
@@ -2339,6 +2493,11 @@ class LegalGrasps:
     def collides_at_destination(self) -> int: ...
     @property
     def collides_at_origin(self) -> int: ...
+    @property
+    def fallen(self) -> list[Fallen]:
+        """
+        Fallen, most frequent first.
+        """
     @property
     def poses(self) -> list[GraspPose]:
         """

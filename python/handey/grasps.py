@@ -13,8 +13,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from handey import _core
+from handey.funnel import Funnel
 from handey.pick_and_place import Workspace
 from handey.plan_options import PlanOptions
+from handey.reasons import Reason
 from handey.report import GoalReport
 
 __all__ = ["Grasps", "describe"]
@@ -64,8 +66,8 @@ class Grasps:
     """
 
     def __init__(self, work: Workspace, options: PlanOptions, report: GoalReport) -> None:
-        # A goal may be tried again from another state of the cell: only the last try is told.
-        report.funnel, report.reasons, report.attempts = {}, [], []
+        self._looked = Funnel(work)
+        report.begin(self._looked)
         self._work, self._options, self._report = work, options, report
         self._seen = _Seen()
         self._narrow: dict[_core.PairChoice, list[_core.RankedPair]] = {}
@@ -106,6 +108,7 @@ class Grasps:
 
     def _of_kind(self, kind: _core.PairChoice) -> Iterator[Grasp]:
         ranking = _rank(self._work, self._options.ranking, kind)
+        self._looked.rank(ranking)
         _report_pairs(self._report, ranking, kind, self._options.ranking)
         yield from self._legal(ranking.ranked)
 
@@ -132,9 +135,10 @@ class Grasps:
                     turn.search = _core.LegalGraspSearch(
                         work.scene, work.solver, turn.pair, turn.legality
                     )
+                    self._looked.searching(turn.pair, turn.search)
                 found = turn.search.next(PORTION)
             if turn.search.is_done:
-                self._tell(turn.pair, turn.search.result())
+                self._tell(turn.pair, turn.search.result(), turn.search)
             else:
                 self._turns.append(turn)
             for aim in self._fresh(turn.pair, found):
@@ -164,10 +168,14 @@ class Grasps:
         fresh = [pose for pose in poses if _key(name, pose) not in known]
         known.update(_key(name, pose) for pose in poses)
         self._report.add("legal grasp poses", len(fresh))
+        self._looked.take_up(pair).legal += len(fresh)
         return fresh
 
-    def _tell(self, pair: _core.RankedPair, found: _core.LegalGrasps) -> None:
+    def _tell(
+        self, pair: _core.RankedPair, found: _core.LegalGrasps, search: object = None
+    ) -> None:
         """What came of a pair, for the reasons."""
+        self._looked.looked(pair, found, search)
         name = str(pair.pair)
         if found.poses:
             self._seen.tell(self._report, name, f"{name}: legal hand poses only in a denser pass")
@@ -259,10 +267,9 @@ def _report_faces(
     report.add("unobstructed", len(ranking.ranked))
     if not ranking.faces:
         least = 1e6 * options.features.least_face_area
-        reason = f"the part has no flat face of {least:g} mm2 or more for a pad to lie on"
-        report.reasons.append(reason)
+        _no_pair(report, f"the part has no flat face of {least:g} mm2 or more for a pad to lie on")
     elif not spanned and not ranking.rejected:
-        report.reasons.append("no two faces of the part are parallel and face away from each other")
+        _no_pair(report, "no two faces of the part are parallel and face away from each other")
     _report_fallen(report, ranking)
 
 
@@ -274,11 +281,18 @@ def _report_beyond_faces(report: GoalReport, ranking: _core.Ranking) -> None:
     report.add("of these looked at", spanned)
     report.add("of these unobstructed", len(ranking.ranked))
     if not spanned and not ranking.rejected:
-        report.reasons.append(
+        _no_pair(
+            report,
             "no edge or vertex of the part is opposite to a face or an edge with which jaws could "
-            "hold it"
+            "hold it",
         )
     _report_fallen(report, ranking)
+
+
+def _no_pair(report: GoalReport, text: str) -> None:
+    report.reasons.append(text)
+    if report.looked is not None:
+        report.looked.no_features.append(Reason("no_features", "found", text))
 
 
 def _report_fallen(report: GoalReport, ranking: _core.Ranking) -> None:

@@ -13,9 +13,18 @@ from dataclasses import dataclass
 from handey import _core
 from handey.pick_and_place import Carry
 from handey.placement import TOUCHING, carried_by, examine_standing
+from handey.reasons import Reason
 from handey.task import Goal, PlaceAt
 
-__all__ = ["Hindrance", "carries", "hindrance", "runs_into", "topmost"]
+__all__ = [
+    "Hindrance",
+    "carries",
+    "hindrance",
+    "runs_into",
+    "topmost",
+    "unstable",
+    "would_fall",
+]
 
 
 @dataclass(frozen=True)
@@ -24,11 +33,11 @@ class Hindrance:
 
     Attributes:
         parts: indices of those that must be moved first; empty where moving none of them helps.
-        reasons: in words.
+        reasons: typed, and in words.
     """
 
     parts: tuple[int, ...]
-    reasons: tuple[str, ...]
+    reasons: tuple[Reason, ...]
 
 
 def hindrance(goal: Goal, cell: _core.Cell, model: _core.CollisionModel) -> Hindrance | None:
@@ -37,9 +46,7 @@ def hindrance(goal: Goal, cell: _core.Cell, model: _core.CollisionModel) -> Hind
     fallen = carried_by(model, cell, part)
     parts, reasons = list(fallen), []
     if fallen:
-        names = ", ".join(cell.parts[i].name for i in fallen)
-        verb = "it stands" if len(fallen) == 1 else "they stand"
-        reasons.append(f"{names} would fall: {verb} on {goal.part}, which is to be moved")
+        reasons.append(would_fall([cell.parts[i].name for i in fallen], goal.part))
     if isinstance(goal, PlaceAt):
         there = cell.with_part_at(part, goal.X_WP)
         near = _core.touching_bodies(model, there, part, TOUCHING)
@@ -48,11 +55,28 @@ def hindrance(goal: Goal, cell: _core.Cell, model: _core.CollisionModel) -> Hind
         if any(ref.kind == _core.BodyRef.Kind.Part for ref in near):
             for other in _overlapping_parts(model, there, part):
                 parts.append(other)
-                reasons.append(f"{cell.parts[other].name} is where {goal.part} is to go")
+                name = cell.parts[other].name
+                text = f"{name} is where {goal.part} is to go"
+                reasons.append(
+                    Reason("in_the_way", "found", text, end="destination", bodies=(name,))
+                )
         standing = examine_standing(cell, part, goal.X_WP, near)
         if not standing.stable:
-            reasons.append(f"{goal.part} would not stand at its goal: {standing.reason}")
+            reasons.append(unstable(goal.part, standing.reason))
     return Hindrance(tuple(dict.fromkeys(parts)), tuple(reasons)) if reasons else None
+
+
+def would_fall(carried: list[str], part: str) -> Reason:
+    """Parts stand on the one that is to be moved."""
+    verb = "it stands" if len(carried) == 1 else "they stand"
+    text = f"{', '.join(carried)} would fall: {verb} on {part}, which is to be moved"
+    return Reason("would_fall", "found", text, end="origin", bodies=tuple(carried))
+
+
+def unstable(part: str, why: str) -> Reason:
+    """A part would not stay where it is to go."""
+    text = f"{part} would not stand at its goal: {why}"
+    return Reason("unstable", "found", text, end="destination")
 
 
 def _overlapping_parts(model: _core.CollisionModel, cell: _core.Cell, part: int) -> list[int]:

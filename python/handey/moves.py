@@ -21,6 +21,7 @@ from handey.goal_places import places_for
 from handey.in_the_way import carries, runs_into
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
+from handey.reasons import Reason
 from handey.report import GoalReport, Report, StageClock
 from handey.resting import PlacementOptions, Sought, placements, same_rest
 from handey.task import PlaceAt
@@ -153,7 +154,12 @@ class Mover:
         if tried:
             report.reasons.insert(0, f"{tried} places tried; of the last:")
         else:
-            report.fail([f"no place found: {sought.reason()}"])
+            text, on = f"no place found: {sought.reason()}", (self._fixture(index),)
+            report.fail([Reason("no_place", "found", text, end="destination", bodies=on)])
+
+    def _fixture(self, index: int) -> str:
+        goal = self.cell_file.goals[index]
+        return "" if isinstance(goal, PlaceAt) else goal.fixture
 
     def in_the_way(
         self, state: State, index: int, movers: Sequence[int], kept_free: Sequence[PlaceAt]
@@ -218,7 +224,8 @@ class Mover:
         if not ways:
             why = f"none of {tried} places could be reached" if tried else sought.reason()
             why = why if on else "no fixture has 'support: true'"
-            self.report.goals[index].note(f"{name} could not be moved aside: {why}")
+            text = f"{name} could not be moved aside: {why}"
+            self.report.goals[index].note(Reason("in_the_way", "found", text, bodies=(name,)))
 
     def _places_aside(
         self,

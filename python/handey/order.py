@@ -23,6 +23,7 @@ from handey.goal_places import is_met
 from handey.in_the_way import Hindrance, hindrance, topmost
 from handey.moves import Hands, Move, Mover, State
 from handey.plan_options import PlanOptions
+from handey.reasons import Reason
 from handey.report import GoalReport, Report
 from handey.task import Goal, PlaceAt
 
@@ -226,9 +227,9 @@ class _Search:
     def _part(self, index: int) -> str:
         return self.goals[index].part
 
-    def _words(self, obstacle: Hindrance) -> list[str]:
+    def _words(self, obstacle: Hindrance) -> list[Reason]:
         earlier = "" if self.any_order else "; an earlier goal may clear it"
-        return [f"{reason}{earlier}" for reason in obstacle.reasons]
+        return [replace(reason, text=f"{reason.text}{earlier}") for reason in obstacle.reasons]
 
     # Moves.
 

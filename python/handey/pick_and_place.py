@@ -125,6 +125,8 @@ class Carry:
     Attributes:
         stage: the last stage reached; "done" if all of it was planned.
         reason: why it stopped.
+        mover: what of the robot, or "held NAME", met something there; empty if that is not known.
+        bodies: what it met.
         motions: the whole of it when done.
         X_HP: the part in the grasp frame, shape (4, 4).
         end: where the arm is afterwards.
@@ -138,6 +140,8 @@ class Carry:
     grasp: _core.GraspPose | None = None
     end: _core.Configuration | None = None
     regrasps: int = 0
+    mover: str = ""
+    bodies: tuple[str, ...] = ()
 
 
 @dataclass

@@ -20,7 +20,9 @@ from handey import _core
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, Interrupted, InvalidInput, Stopped
+from handey.explain import explain
 from handey.grasps import Grasps
+from handey.in_the_way import unstable, would_fall
 from handey.jaws import is_wider_than_jaws
 from handey.moves import Hands
 from handey.order import plan_order
@@ -32,6 +34,7 @@ from handey.pick_and_place import (
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
+from handey.reasons import Reason
 from handey.regrasp import Regrasp
 from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
 from handey.task import PlaceAt
@@ -107,6 +110,7 @@ def plan(
         for goal in report.goals:
             if goal.status == "not tried" and goal.funnel:
                 goal.status = "stopped"
+    explain(report)
     report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
     report.cpu_s = round(time.process_time() - begin_cpu, 6)
     report.wall_s = round(time.perf_counter() - begin_wall, 6)
@@ -174,10 +178,9 @@ def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
 def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Carry | None:
     """Steps 1 to 7 for one goal: the first grasp that can be carried through, or several."""
     scene = work.scene
-    unstable = _unstable(work)
-    if unstable:
-        report.funnel, report.attempts, report.status = {}, [], "failed"
-        report.reasons = [unstable]
+    refused = _unstable(work)
+    if refused is not None:
+        report.fail([refused])
         return None
     tries = Tries(work, report, options)
     grasps = Grasps(work, options, report)
@@ -199,20 +202,19 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     return None
 
 
-def _unstable(work: Workspace) -> str:
-    """What would fall if the part were brought to its goal now; empty if nothing."""
+def _unstable(work: Workspace) -> Reason | None:
+    """What would fall if the part were brought to its goal now; None if nothing."""
     scene = work.scene
     name = scene.cell.parts[scene.part].name
     carried = [scene.cell.parts[i].name for i in carried_by(work.model, scene.cell, scene.part)]
     if carried:
-        verb = "it stands" if len(carried) == 1 else "they stand"
-        reason = f"would fall: {verb} on {name}, which is to be moved; an earlier goal may clear it"
-        return f"{', '.join(carried)} {reason}"
+        reason = would_fall(carried, name)
+        return replace(reason, text=f"{reason.text}; an earlier goal may clear it")
     # With `order: any` its goal may be on a part that is not there yet.
     there = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
     near = _core.touching_bodies(work.model, there, scene.part, TOUCHING)
     standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal, near)
-    return "" if standing.stable else f"{name} would not stand at its goal: {standing.reason}"
+    return None if standing.stable else unstable(name, standing.reason)
 
 
 def _take_over(

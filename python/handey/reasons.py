@@ -8,10 +8,11 @@ at one of these stages by one cause, the bodies that caused it, and by how much 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-__all__ = ["KINDS", "STAGES", "Reason", "Stage", "Tried"]
+__all__ = ["KINDS", "STAGES", "Reason", "Stage", "Tried", "merged"]
 
 # The stages of the funnel, and what each counts.
 STAGES = {
@@ -31,10 +32,12 @@ KINDS = {
     "no_place": "found",  # no clear, stable placement for `on` or `inside`
     "no_features": "found",  # no two features are opposite to each other
     "too_wide": "spanned",  # by, metres: how much the jaws lack
-    "slips": "spanned",  # friction does not hold the pair
+    "too_thin": "spanned",  # by, metres: how much farther the jaws would have to close
+    "little_overlap": "spanned",  # by, square metres: how much the two faces lack
     "obstructed": "unobstructed",  # neighbours cover the features; by, 0..1: the share
     "little_contact": "reachable",  # pads would lie on too little of the features
-    "turns": "reachable",  # the part's weight would turn it in the jaws
+    "slips": "reachable",  # friction does not hold the part's weight
+    "turns": "reachable",  # by, metres: the part's weight would turn it in the jaws
     "out_of_reach": "reachable",  # by, metres: the wrist centre beyond (too close to) the arm
     "joint_limit": "reachable",  # joint; by, radians: how far past its limit
     "collision": "reachable",  # mover hits bodies; by, metres: how deep the least of them
@@ -58,7 +61,7 @@ class Reason:
         stage: of `STAGES`.
         text: for people, with names and numbers, without the count: "forearm hits post_2, 7.0 mm
             deep, at the destination".
-        count: how many of what the stage counts fell by it.
+        count: how many of what the stage counts fell by it; 1 where it holds for the whole goal.
         end: "origin", "destination", or empty where it is neither or both.
         bodies: what stood in the way: names of fixtures, parts or the robot's links, the most
             frequent first.
@@ -82,6 +85,24 @@ class Reason:
     def as_dict(self) -> dict[str, Any]:
         """All of it as JSON values."""
         return vars(self) | {"bodies": list(self.bodies)}
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def merged(reasons: Iterable[Reason]) -> list[Reason]:
+    """Reasons that tell the same as one, with the words of the nearest; most frequent first."""
+    found: dict[tuple[object, ...], Reason] = {}
+    for reason in reasons:
+        key = reason.kind, reason.stage, reason.end, reason.bodies, reason.mover, reason.joint
+        known = found.get(key)
+        if known is None:
+            found[key] = reason
+            continue
+        nearer = known.by is None or (reason.by is not None and reason.by < known.by)
+        kept = reason if nearer and reason.by is not None else known
+        found[key] = replace(kept, count=known.count + reason.count)
+    return sorted(found.values(), key=lambda reason: -reason.count)
 
 
 @dataclass

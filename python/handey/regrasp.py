@@ -21,6 +21,7 @@ from handey.budgets import with_budget
 from handey.grasp_table import GraspTable, GraspTableOptions, grasp_table, joined, with_pairs
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
+from handey.reasons import Reason
 from handey.regrasp_search import RegraspSearch, clears_ground, compatible
 from handey.report import GoalReport
 
@@ -114,7 +115,10 @@ class Regrasp:
         for search in searches:
             report.attempts += search.told.attempts
         if not self.words:
-            report.reasons = [*self._best(), *searches[-1].told.reasons, *report.reasons]
+            why = [*self._best(), *searches[-1].told.reasons]
+            report.reasons = [*why, *report.reasons]
+            if why and report.looked is not None:
+                report.looked.regrasping = [Reason("no_regrasp", "connected", why[0])]
 
     def _best(self) -> list[str]:
         """What the sequence that got farthest fell at."""

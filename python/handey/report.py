@@ -13,10 +13,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from handey.advice import Advice
 from handey.reasons import Reason, Stage, Tried
+
+if TYPE_CHECKING:
+    from handey.funnel import Funnel
 
 __all__ = [
     "Attempt",
@@ -154,6 +157,8 @@ class GoalReport:
         proof: why there is certainly no plan, at which resolution; empty where that is not known.
         covered: what was looked at, in lines for people.
         advice: the nearest change with which the goal plans; None if none was sought or found.
+        refusals: what was in the way without a look at any grasp; in `stages` once it is explained.
+        looked: what became of pairs and grasps, until it is explained.
     """
 
     goal: int
@@ -172,16 +177,24 @@ class GoalReport:
     proof: str = ""
     covered: list[str] = field(default_factory=list)
     advice: Advice | None = None
+    refusals: list[Reason] = field(default_factory=list)
+    looked: Funnel | None = field(default=None, repr=False, compare=False)
 
-    def fail(self, reasons: list[str]) -> None:
+    def begin(self, looked: Funnel) -> None:
+        """A goal may be tried again from another state of the cell: only the last try is told."""
+        self.funnel, self.reasons, self.attempts, self.refusals = {}, [], [], []
+        self.looked = looked
+
+    def fail(self, reasons: list[Reason]) -> None:
         """It failed before any grasp was looked at."""
         self.funnel, self.attempts, self.status = {}, [], "failed"
-        self.reasons = reasons
+        self.reasons, self.refusals, self.looked = [r.text for r in reasons], list(reasons), None
 
-    def note(self, reason: str) -> None:
+    def note(self, reason: Reason) -> None:
         """Add a reason, once."""
-        if reason not in self.reasons:
-            self.reasons.append(reason)
+        if reason not in self.refusals:
+            self.refusals.append(reason)
+            self.reasons.append(reason.text)
 
     def add(self, stage: str, count: int) -> None:
         """Add to a count of the funnel."""

@@ -36,6 +36,7 @@ WAITING = 3  # Choice: grasps that fell before the first of them gets a greater 
 class _Try:
     """One grasp, and the arm's configuration in it."""
 
+    number: int
     name: str
     pair: _core.RankedPair
     aim: _core.GraspPose
@@ -60,7 +61,7 @@ class Tries:
     work: Workspace
     report: GoalReport
     options: PlanOptions
-    waiting: dict[int, list[tuple[str, Reach]]] = field(default_factory=dict)
+    waiting: dict[int, list[tuple[_Try, Reach]]] = field(default_factory=dict)
     slid: list[_Try] = field(default_factory=list)
     stalled: int = 0
     fallen: list[_Try] = field(default_factory=list)
@@ -76,7 +77,7 @@ class Tries:
             found = self.report.funnel.get("legal grasp poses", self.grasps)
             self._announce(f"grasp {self.grasps} of {found}")
             for q_pick in aim.q_pick[:2]:
-                attempt = _Try(describe(pair, aim), pair, aim, q_pick)
+                attempt = _Try(self.grasps, describe(pair, aim), pair, aim, q_pick)
                 carry = self._slide(attempt) or self._catch_up()
                 if carry is not None:
                     return carry
@@ -95,9 +96,9 @@ class Tries:
                 return carry
         for budget in range(1, round_ + 1):
             waiting = self.waiting.pop(budget, [])
-            for number, (name, reach) in enumerate(waiting, 1):
+            for number, (attempt, reach) in enumerate(waiting, 1):
                 self._announce(f"again, grasp {number} of {len(waiting)}")
-                carry = self._carry(name, reach, budget)
+                carry = self._carry(attempt, reach, budget)
                 if carry is not None:
                     return carry
         fallen, self.fallen = self.fallen, []
@@ -130,13 +131,18 @@ class Tries:
         reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
         if not isinstance(reach, Carry):
             self.report.add("approached", 1)
-            return self._carry(attempt.name, reach, 0)
+            return self._carry(attempt, reach, 0)
+        self._tell(attempt, reach, approached=False)
         if reach.stage == "approach" and self.options.direct.approach.search_levels > 0:
             self.slid.append(attempt)
             self.stalled += 1
         else:
             self._fell(attempt, reach)
         return None
+
+    def _tell(self, attempt: _Try, carry: Carry, approached: bool) -> None:
+        if self.report.looked is not None:
+            self.report.looked.tried(attempt.number, attempt.aim, carry, approached)
 
     def _fell(self, attempt: _Try, carry: Carry) -> None:
         self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
@@ -146,18 +152,20 @@ class Tries:
         direct = self._budget(round_)
         reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
         if isinstance(reach, Carry):
+            self._tell(attempt, reach, approached=False)
             self._fell(attempt, reach)
             return None
         self.report.add("approached", 1)
-        return self._carry(attempt.name, reach, round_)
+        return self._carry(attempt, reach, round_)
 
-    def _carry(self, name: str, reach: Reach, round_: int) -> Carry | None:
+    def _carry(self, attempt: _Try, reach: Reach, round_: int) -> Carry | None:
         carry = carry_through(self.work, reach, self._budget(round_))
-        self.report.attempts.append(Attempt(name, carry.stage, carry.reason))
+        self._tell(attempt, carry, approached=True)
+        self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
         if carry.stage == "done":
-            return planned(self.report, name, carry)
+            return planned(self.report, attempt.name, carry)
         if round_ + 1 < len(self.options.sampling_rounds):
-            self.waiting.setdefault(round_ + 1, []).append((name, reach))
+            self.waiting.setdefault(round_ + 1, []).append((attempt, reach))
         return None
 
     def _budget(self, round_: int) -> DirectOptions:

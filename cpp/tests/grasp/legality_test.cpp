@@ -201,6 +201,78 @@ TEST(LegalGrasps, SayWhenTheDestinationIsOutOfReach) {
   EXPECT_NE(legal.worst_reason.find("(destination)"), std::string::npos) << legal.worst_reason;
 }
 
+// By how many of a kind candidates fell at an end.
+int fallen(const LegalGrasps& legal, GraspEnd end, FallKind kind) {
+  int count = 0;
+  for (const Fallen& one : legal.fallen) {
+    if (one.end == end && one.kind == kind) count += one.count;
+  }
+  return count;
+}
+
+TEST(LegalGrasps, TellWhatEveryCandidateFellBy) {
+  Cell cell = block_on_table();
+  cell.fixtures.push_back(box_body("roof", {0.4, 0.4, 0.02}, translation(0.45, -0.25, 0.09)));
+  const GraspScene scene = make_scene(cell, translation(0.45, -0.25, 0.025));
+  const SphericalWristSolver solver(*puma());
+  int under_the_roof = 0;
+  for (const RankedPair& pair : rank_grasps(cell, 0, scene.X_WP_goal).ranked) {
+    const LegalGrasps legal = find_legal_grasps(scene, solver, pair);
+    const GraspEnd origin = GraspEnd::Origin, destination = GraspEnd::Destination;
+    EXPECT_EQ(fallen(legal, GraspEnd::Both, FallKind::LittleContact), legal.too_little_contact);
+    EXPECT_EQ(fallen(legal, GraspEnd::Both, FallKind::Turns), legal.would_turn);
+    EXPECT_EQ(
+        fallen(legal, origin, FallKind::OutOfReach) + fallen(legal, origin, FallKind::JointLimit),
+        legal.unreachable_at_origin);
+    EXPECT_EQ(fallen(legal, destination, FallKind::OutOfReach) +
+                  fallen(legal, destination, FallKind::JointLimit),
+              legal.unreachable_at_destination);
+    EXPECT_EQ(fallen(legal, origin, FallKind::Collision), legal.collides_at_origin);
+    EXPECT_EQ(fallen(legal, destination, FallKind::Collision), legal.collides_at_destination);
+    EXPECT_TRUE(std::is_sorted(legal.fallen.begin(), legal.fallen.end(),
+                               [](const auto& a, const auto& b) { return a.count > b.count; }));
+    for (const Fallen& one : legal.fallen) {
+      EXPECT_NE(one.text, "");
+      EXPECT_EQ(one.joint >= 0, one.kind == FallKind::JointLimit) << one.text;
+      EXPECT_EQ(one.body.empty(), one.kind != FallKind::Collision) << one.text;
+      if (one.body == "roof" && one.mover == "hand") under_the_roof += one.count;
+    }
+  }
+  EXPECT_GT(under_the_roof, 0);
+}
+
+// The nearest miss that is told is one: asked again, that pose misses by so much.
+TEST(LegalGrasps, TellTheNearestMissOfEachJoint) {
+  const GraspScene scene = make_scene(block_on_table(), translation(0.45, -0.25, 0.025));
+  const SphericalWristSolver solver(*puma());
+  const RankedPair pair = rank_grasps(scene.cell, 0, scene.X_WP_goal).ranked.at(0);
+  LegalityOptions options;
+  options.most_poses = 100000;
+  int limited = 0;
+  for (const Fallen& one : find_legal_grasps(scene, solver, pair, options).fallen) {
+    if (one.kind != FallKind::JointLimit && one.kind != FallKind::OutOfReach) continue;
+    ASSERT_NE(one.end, GraspEnd::Both);
+    const Pose& X_WP = one.end == GraspEnd::Origin ? scene.cell.parts[0].X_WB : scene.X_WP_goal;
+    const InverseResult inverse = solver.solve(scene.cell.X_WR.inverse() * X_WP * one.X_PH);
+    EXPECT_TRUE(inverse.solutions.empty());
+    EXPECT_EQ(inverse.joint, one.joint);
+    EXPECT_NEAR(inverse.excess, one.least.value(), 1e-12);
+    limited += one.kind == FallKind::JointLimit ? 1 : 0;
+  }
+  EXPECT_GT(limited, 0);
+}
+
+TEST(LegalGrasps, TellAPartThatSlipsFromOneThatTurns) {
+  Cell cell = block_on_table();
+  cell.parts[0].mass = 30.0;
+  const GraspScene scene = make_scene(cell, translation(0.45, -0.25, 0.025));
+  const RankedPair pair = rank_grasps(cell, 0, scene.X_WP_goal).ranked.at(0);
+  const LegalGrasps legal = find_legal_grasps(scene, SphericalWristSolver(*puma()), pair);
+  EXPECT_EQ(fallen(legal, GraspEnd::Both, FallKind::Turns), 0);
+  EXPECT_EQ(fallen(legal, GraspEnd::Both, FallKind::Slips), legal.would_turn);
+  EXPECT_GT(legal.would_turn, 0);
+}
+
 TEST(LegalGrasps, KeepThePadsOffARib) {
   Cell cell = puma_bench();
   Body part;
