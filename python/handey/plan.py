@@ -12,7 +12,6 @@ import json
 import os
 from dataclasses import dataclass, field
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,12 +20,12 @@ from handey.errors import Fault, InvalidInput
 from handey.fields import Field, nearest
 from handey.output import write_whole
 from handey.pose import read_pose, written_pose
-from handey.strict_yaml import Document, read_text
+from handey.strict_json import read_json
+from handey.strict_yaml import Document
 
 __all__ = ["ACTIONS", "Plan", "Step"]
 
 VERSION = 1
-MOST_BYTES = 16 * 1024 * 1024  # Choice: a quarter of an hour of motion in rows of 8 ms
 ACTIONS = (
     "transit",  # gross motion, hand empty
     "approach",  # hand moves in over the part
@@ -163,7 +162,7 @@ class Plan:
         Raises:
             InvalidInput: with every fault of the file.
         """
-        return _read(_read_json(path))
+        return _read(read_json(path))
 
 
 def _json(value: Any) -> str:
@@ -183,33 +182,6 @@ def _written_step(step: Step) -> str:
     }
     lines = ",\n".join(f"      {_json(key)}: {_json(value)}" for key, value in entries.items())
     return "    {\n" + lines + "\n    }"
-
-
-def _read_json(path: str | os.PathLike[str]) -> Document:
-    file = os.fspath(path)
-    text = read_text(path, MOST_BYTES, code="E_TOO_BIG")
-    twice: list[str] = []
-
-    def distinct(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        entries = dict(pairs)
-        if len(entries) < len(pairs):
-            keys = [key for key, _ in pairs]
-            twice.extend(sorted({key for key in keys if keys.count(key) > 1})[:10])
-        return entries
-
-    try:
-        value = json.loads(text, object_pairs_hook=distinct)
-    except json.JSONDecodeError as error:
-        message = f"is not JSON: {error.msg} (line {error.lineno}, column {error.colno})"
-        raise InvalidInput(Fault("E_JSON", "", message, file)) from error
-    except (RecursionError, ValueError) as error:
-        message = f"is not JSON that can be read: {str(error)[:200]}"
-        raise InvalidInput(Fault("E_JSON", "", message, file)) from error
-    document = Document(file, Path(os.path.abspath(path)).parent, value)
-    for key in twice:
-        document.fault((), "E_DUP", f"key '{key[:60]}' is given twice in one object")
-    document.raise_faults()
-    return document
 
 
 def _read(document: Document) -> Plan:

@@ -1,0 +1,234 @@
+"""What the page draws: meshes, robot, bodies, the rows of a plan, the hand poses that were tried.
+
+Plain values for JSON, arrays packed as base64. The files are read as the checker reads them, and
+the robot is moved by its own kinematics, so the page shows what the plan says, valid or not.
+"""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+import numpy as np
+
+from handey.check.carries import find_carries
+from handey.check.cell import Body, Cell
+from handey.check.plan_data import PlanData
+from handey.check.planar import unit_normals
+from handey.check.robot import Robot
+from handey.check.shapes import Shape
+from handey.check.values import Array
+from handey.reasons import STAGES, Tried
+from handey.report import GoalReport
+from handey.view.report_file import ToldReport
+
+__all__ = ["cell_scene", "packed", "tried_scene"]
+
+CREASE = np.radians(30.0)  # sharper edges are drawn
+MOST_TRIANGLES = 200_000  # of pictures; above that the collision shapes are shown
+MOST_TRIED = 1200  # Choice: of one goal; more cannot be told apart
+
+
+class _Meshes:
+    """The meshes of the page; equal ones are kept once."""
+
+    def __init__(self) -> None:
+        self.list: list[dict[str, str]] = []
+        self._known: dict[bytes, int] = {}
+
+    def add(self, shape: Shape) -> int:
+        vertices, faces = np.asarray(shape.vertices, "<f4"), np.asarray(shape.faces, "<u4")
+        key = vertices.tobytes() + b"|" + faces.tobytes()
+        if key not in self._known:
+            self._known[key] = len(self.list)
+            # The steps between columns would blacken a measured solid.
+            creases = np.zeros((0, 2)) if shape.is_measured else _creases(shape)
+            edges = np.asarray(creases, "<u4")
+            self.list.append({"v": packed(vertices), "f": packed(faces), "e": packed(edges)})
+        return self._known[key]
+
+
+def packed(array: np.ndarray) -> str:
+    """An array as base64."""
+    return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode("ascii")
+
+
+def _creases(shape: Shape) -> np.ndarray:
+    """Edges where the surface bends sharply, or ends (k, 2)."""
+    normals = unit_normals(shape.vertices[shape.faces])
+    edges = shape.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    owner = np.repeat(np.arange(len(shape.faces)), 3)
+    unique, index = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
+    order = np.argsort(index.reshape(-1), kind="stable")
+    count = np.bincount(index.reshape(-1))
+    first = np.concatenate([[0], np.cumsum(count)[:-1]])
+    a, b = owner[order[first]], owner[order[np.minimum(first + 1, len(order) - 1)]]
+    bend = np.einsum("ij,ij->i", normals[a], normals[b]) < np.cos(CREASE)
+    return np.asarray(unique[(count != 2) | bend])
+
+
+def _matrix(matrix: Array) -> list[float]:
+    """Column by column, as WebGL has it."""
+    return [round(float(x), 9) for x in matrix.T.ravel()]
+
+
+def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
+    """The cell, and the plan as rows."""
+    meshes = _Meshes()
+
+    def shapes(items: list[Shape]) -> list[dict[str, Any]]:
+        return [
+            {"mesh": meshes.add(shape.picture or shape), "pose": _matrix(shape.pose)}
+            for shape in items
+        ]
+
+    def body(item: Body) -> dict[str, Any]:
+        return {"name": item.name, "pose": _matrix(item.pose), "shapes": shapes(item.shapes)}
+
+    robot = cell.robot
+    joints = [*robot.joints, *robot.fingers]
+    arm = {joint.name: i for i, joint in enumerate(robot.joints)}
+    return {
+        "name": cell.name,
+        "robot": {
+            "name": robot.name,
+            "base": _matrix(cell.base),
+            "bodies": [{"name": b.name, "shapes": shapes(s)} for b, s in _pictures(robot)],
+            "joints": [
+                {
+                    "name": j.name, "parent": j.parent, "child": j.child,
+                    "origin": _matrix(j.origin),
+                    "axis": j.axis.tolist(), "slides": j.prismatic, "index": arm.get(j.name, -1),
+                    "limits": [x if np.isfinite(x) else None for x in (j.lower, j.upper)],
+                }
+                for j in sorted(joints, key=lambda j: j.child)
+            ],
+            "arm": robot.joint_names(),
+            "fingers": [finger.child for finger in robot.fingers],
+            "hand": robot.hand,
+            "grasp": _matrix(robot.grasp_frame),
+            "opening": list(robot.opening),
+            "pad": list(robot.pad),
+        },
+        "fixtures": [{**body(item), "support": item.support} for item in cell.fixtures],
+        "parts": [body(item) for item in cell.parts],
+        "goals": [
+            {
+                "part": g.part, "at": None if g.at is None else _matrix(g.at),
+                "on": g.on, "inside": g.inside,
+            }
+            for g in cell.task
+        ],
+        "plan": _motion(cell, plan),
+        "meshes": meshes.list,
+    }  # fmt: skip
+
+
+def _pictures(robot: Robot) -> list[tuple[Any, list[Shape]]]:
+    """Each body with what is shown of it: its visual shapes if they can be had, else the others."""
+    total = sum(len(shape.faces) for body in robot.bodies for shape in body.visuals)
+    if total > MOST_TRIANGLES:
+        return [(body, body.shapes) for body in robot.bodies]
+    return [(body, body.visuals or body.shapes) for body in robot.bodies]
+
+
+def _motion(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
+    """The rows of all steps, and where every part is in each step."""
+    if plan is None or not plan.steps:
+        start = {part.name: _matrix(part.pose) for part in cell.parts}
+        rows = np.concatenate([cell.start, [cell.start_opening]])
+        note = "no plan" if plan is None else "every goal is met: nothing to do"
+        return {
+            "note": note, "steps": [], "start": start, "time": packed(np.zeros(1, "<f8")),
+            "rows": packed(rows.astype("<f4")),
+        }  # fmt: skip
+    _, world = find_carries(plan, cell)
+    steps, row = [], 0
+    for step in plan.steps:
+        parts = {name: _matrix(pose) for name, pose in world.standing[step.index].items()}
+        held = step.part if step.part is not None and step.part not in parts else None
+        grip = None if held is None or step.X_HP is None else _matrix(step.X_HP)
+        steps.append(
+            {
+                "action": step.action, "goal": step.goal, "held": held, "grip": grip,
+                "parts": parts, "row": row, "rows": len(step.time),
+                "from": float(step.time[0]), "to": float(step.time[-1]),
+            }
+        )  # fmt: skip
+        row += len(step.time)
+    rows = np.vstack([np.c_[step.q, step.opening] for step in plan.steps])
+    time = np.concatenate([step.time for step in plan.steps])
+    return {
+        "note": "", "steps": steps, "start": {part.name: _matrix(part.pose) for part in cell.parts},
+        "time": packed(time.astype("<f8")), "rows": packed(rows.astype("<f4")),
+    }  # fmt: skip
+
+
+# ------------------------------------------------------------------------------------------- tried
+
+
+def tried_scene(cell: Cell, plan: PlanData | None, report: ToldReport) -> list[dict[str, Any]]:
+    """Of each goal that is told: where its part is at both ends, and the hand poses tried."""
+    result = []
+    for goal in report.goals:
+        ends = _ends(cell, plan, goal)
+        if ends is None:
+            continue
+        part, origin, destination = ends
+        texts: dict[str, int] = {}
+        result.append(
+            {
+                "goal": goal.goal,
+                "part": part,
+                "status": goal.status,
+                "origin": _matrix(origin),
+                "destination": None if destination is None else _matrix(destination),
+                "tried": [_tried(tried, texts) for tried in _some(goal.tried)],
+                "texts": list(texts),
+            }
+        )
+    return result
+
+
+def _tried(tried: Tried, texts: dict[str, int]) -> dict[str, Any]:
+    return {
+        "at": [round(float(x), 5) for x in np.array(tried.X_PH).T.ravel()],
+        "opening": round(tried.opening, 5),
+        "width": round(tried.width, 5),
+        "stage": tried.stage or "planned",
+        "text": texts.setdefault(tried.text, len(texts)),
+    }
+
+
+def _some(tried: list[Tried]) -> list[Tried]:
+    """Those that have a pose; of too many, some of each stage, those of the rarest stages all."""
+    usable = [pose for pose in tried if pose.X_PH]
+    if len(usable) <= MOST_TRIED:
+        return usable
+    stages = [[p for p in usable if p.stage == stage] for stage in ("", *STAGES)]
+    left, kept = MOST_TRIED, []
+    for done, poses in enumerate(sorted(stages, key=len)):
+        most = left // (len(stages) - done)
+        kept += poses if len(poses) <= most else poses[:: -(-len(poses) // max(most, 1))]
+        left = MOST_TRIED - len(kept)
+    return kept
+
+
+def _ends(
+    cell: Cell, plan: PlanData | None, goal: GoalReport
+) -> tuple[int, Array, Array | None] | None:
+    """The goal's part, where it stands before, and where it is to go if that is known."""
+    if not 0 <= goal.goal < len(cell.task):
+        return None
+    wanted = cell.task[goal.goal]
+    part = cell.part_names().index(wanted.part)
+    origin, destination = cell.parts[part].pose, wanted.at
+    for earlier in cell.task[: goal.goal]:
+        if earlier.part == wanted.part and earlier.at is not None:
+            origin = earlier.at
+    if plan is not None and plan.steps:
+        carries, _ = find_carries(plan, cell)
+        own = [c for c in carries if c.goal == goal.goal and c.part == wanted.part]
+        if own:
+            origin, destination = own[0].origin, own[-1].put
+    return part, origin, destination
