@@ -122,7 +122,7 @@ def workshop(tmp_path, monkeypatch):
 
     module("planner", plan=plan, PlanOptions=types.SimpleNamespace)
     module("check", check=lambda cell, plan: bench.checked)
-    module("view", write_page=lambda cell, plan, path: bench.pages.append((cell, plan, path)))
+    module("view", write_page=lambda *given: bench.pages.append(given))
     monkeypatch.setattr(handey.cell_file, "load_cell", lambda path: bench.cell)
     return bench
 
@@ -322,14 +322,58 @@ def test_an_infinite_clearance_is_null_in_json(workshop, capsys):
     assert json.loads(capsys.readouterr().out)["least_clearance"] is None
 
 
-def test_view_writes_a_page_with_or_without_a_plan(workshop, capsys):
+def test_view_writes_a_page_of_a_plan_or_plans_first(workshop, capsys):
     workshop.plan.save("p.json")
-    assert cli.main(["view", "cell.yaml"]) == 0
+    assert cli.main(["view", "cell.yaml", "--seed", "7"]) == 0
+    assert workshop.options.seed == 7
     assert cli.main(["view", "cell.yaml", "p.json", "-o", "my.html"]) == 0
-    (_, nothing, page), (_, plan, named) = workshop.pages
-    assert nothing is None and page == Path("cell.html")
-    assert plan == "p.json" and named == Path("my.html")
+    (_, planned, page, report, _), (_, plan, named) = workshop.pages
+    assert planned["cell"] == workshop.plan.cell and report is workshop.report
+    assert plan == "p.json" and (page, named) == (Path("cell.html"), Path("my.html"))
     assert capsys.readouterr().out == "page: cell.html\npage: my.html\n"
+
+
+def test_view_shows_the_reason_where_there_is_no_plan(workshop, capsys):
+    workshop.plan = None
+    assert cli.main(["view", "cell.yaml"]) == 0
+    ((_, plan, _, report, notes),) = workshop.pages
+    assert plan is None and report is workshop.report and not notes
+
+
+def test_view_says_in_the_page_that_a_robot_cannot_be_planned_for(workshop, capsys):
+    def refuse():
+        raise InvalidInput(Fault("E_KINEMATICS", "robot.file", "needs a spherical wrist"))
+
+    workshop.before_planning = refuse
+    assert cli.main(["view", "cell.yaml"]) == 0
+    ((_, plan, _, report, notes),) = workshop.pages
+    assert plan is None and report is None
+    assert notes == ["No planning for this robot: needs a spherical wrist"]
+    assert "needs a spherical wrist" in capsys.readouterr().err
+
+
+def test_view_refuses_what_is_neither_plan_nor_report(workshop, tmp_path, capsys):
+    (tmp_path / "p.json").write_text('{"handey_report": 2, "goals": [{"goal": "a"}]}')
+    assert cli.main(["view", "cell.yaml", "p.json"]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(": ")[:3] for line in lines] == [
+        ["handey", "p.json", "handey_report"],
+        ["handey", "p.json", "goals[0].goal"],
+    ]
+    assert workshop.pages == []
+
+
+def test_a_report_is_written_with_a_plan_and_without(workshop, tmp_path, capsys):
+    assert cli.main(["plan", "cell.yaml", "--report", "r.json"]) == 0
+    assert json.loads((tmp_path / "r.json").read_text())["handey_report"] == 1
+    workshop.plan = None
+    capsys.readouterr()
+    assert cli.main(["plan", "cell.yaml", "--report", "out.json"]) == 3
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "to see it: handey view cell.yaml out.json"
+    assert json.loads((tmp_path / "out.json").read_text())["handey_report"] == 1
+    assert cli.main(["plan", "cell.yaml", "--report", "cell.yaml"]) == 2
+    assert cli.main(["plan", "cell.yaml", "-o", "a.json", "--report", "a.json"]) == 2
 
 
 def test_warnings_go_to_standard_error_unless_quiet(workshop, capsys):

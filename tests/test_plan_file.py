@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from handey.errors import InvalidInput
-from handey.plan import ACTIONS, MOST_BYTES, Plan, Step
+from handey.plan import ACTIONS, Plan, Step
 from handey.pose import pose_from_xyz_rpy
+from handey.strict_json import MOST_BYTES
 
 
 def some_plan() -> Plan:

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import re
-import shutil
 import time
 
 import numpy as np
 import pytest
+from browsing import (
+    colours,
+    needs_browser,
+    new_browser,
+    no_screen,
+    opened,
+    overlapping,
+    picture,
+    screen,
+    severe,
+    words,
+)
 from hand_made import ROOT, pick_and_place, write_cell
 
 from handey.errors import InvalidInput
 from handey.view import write_page
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-DRIVER = shutil.which("chromedriver")
-needs_browser = pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="no chromium, chromedriver")
 
 
 @pytest.fixture(scope="module")
@@ -31,28 +37,9 @@ def made(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory):
-    webdriver = pytest.importorskip("selenium.webdriver")
-    from selenium.webdriver.chrome.service import Service
-
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for flag in (
-        "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader", "--disable-gpu-sandbox", "--disable-background-networking",
-        "--no-first-run", "--window-size=1100,760",
-        f"--user-data-dir={tmp_path_factory.mktemp('profile')}",
-    ):  # fmt: skip
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service(DRIVER))
+    driver = new_browser(tmp_path_factory.mktemp("profile"))
     yield driver
     driver.quit()
-
-
-def opened(browser, path):
-    browser.get(path.as_uri())
-    time.sleep(1.0)
-    return browser
 
 
 def seek(browser, t):
@@ -61,39 +48,6 @@ def seek(browser, t):
         "r.dispatchEvent(new Event('input'));", t,
     )  # fmt: skip
     time.sleep(0.6)
-
-
-def picture(browser):
-    """What the browser shows of the canvas, (rows, columns, 3): its own PNG, decoded by itself."""
-    png = browser.find_element("id", "view").screenshot_as_base64
-    width, height, data = browser.execute_async_script(
-        """const done = arguments[1], image = new Image();
-        image.onload = () => {
-          const c = document.createElement("canvas");
-          [c.width, c.height] = [image.width, image.height];
-          const context = c.getContext("2d");
-          context.drawImage(image, 0, 0);
-          const bytes = context.getImageData(0, 0, c.width, c.height).data;
-          let text = "";
-          for (let i = 0; i < bytes.length; i += 8192) {
-            text += String.fromCharCode(...bytes.subarray(i, i + 8192));
-          }
-          done([c.width, c.height, btoa(text)]);
-        };
-        image.src = "data:image/png;base64," + arguments[0];""",
-        png,
-    )
-    return np.frombuffer(base64.b64decode(data), np.uint8).reshape(height, width, 4)[:, :, :3]
-
-
-def words(browser, name):
-    return browser.find_element("id", name).text
-
-
-def severe(browser):
-    return [
-        entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
-    ]
 
 
 def test_the_page_needs_nothing_else(made):
@@ -115,7 +69,7 @@ def test_the_page_tells_plans_that_it_cannot_read(made, tmp_path):
 def test_the_page_shows_the_cell_and_moves_with_the_time_line(browser, made):
     opened(browser, made[0] / "page.html")
     start = picture(browser)
-    assert len(np.unique(start.reshape(-1, 3), axis=0)) > 60
+    assert colours(browser) > 60
     assert browser.title.startswith("a <b> & cell")
     assert words(browser, "action") == "transit"
     names = [
@@ -159,17 +113,18 @@ def test_the_page_shows_joint_values_and_plays(browser, made):
 
 
 @needs_browser
-def test_the_page_fits_a_phone(browser, made):
-    metrics = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+@pytest.mark.parametrize(("width", "height"), [(400, 800), (1280, 800)])
+def test_nothing_overlaps_on_a_phone_or_a_screen(browser, made, width, height):
+    screen(browser, width, height)
     try:
         opened(browser, made[0] / "page.html")
         size = browser.execute_script("return [document.documentElement.scrollWidth, innerWidth]")
-        assert size[0] <= size[1] == 390
-        assert len(np.unique(picture(browser).reshape(-1, 3), axis=0)) > 60
+        assert size[0] <= size[1] == width
+        assert overlapping(browser, "#head, #tools button, #joints, #bar, #controls > *") == []
+        assert colours(browser) > 60
         assert severe(browser) == []
     finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        no_screen(browser)
 
 
 @needs_browser
@@ -179,7 +134,7 @@ def test_the_page_shows_a_cell_without_a_plan(browser, tmp_path, name):
     opened(browser, tmp_path / "page.html")
     assert words(browser, "action") == "no plan"
     assert not browser.find_element("id", "bar").is_displayed()
-    assert len(np.unique(picture(browser).reshape(-1, 3), axis=0)) > 60
+    assert colours(browser) > 60
     assert severe(browser) == []
 
 

@@ -24,12 +24,12 @@ from handey.commands import (
     OK,
     check_command,
     plan_command,
-    view_command,
 )
 from handey.errors import InvalidInput
 from handey.inspect_command import inspect_command
 from handey.slice_command import slice_command
 from handey.terminal import complain
+from handey.view_command import view_command
 
 __all__ = ["main", "run"]
 
@@ -104,6 +104,9 @@ def parser() -> argparse.ArgumentParser:
     plan.add_argument(
         "-o", "--output", metavar="PLAN", help="plan file (default: name of CELL + .plan.json)"
     )
+    plan.add_argument(
+        "--report", metavar="JSON", help="write how planning went, with a plan or without"
+    )
     _add_planning(plan)
     plan.set_defaults(run=plan_command)
 
@@ -144,12 +147,20 @@ def parser() -> argparse.ArgumentParser:
     slices.set_defaults(run=slice_command)
 
     view = commands.add_parser(
-        "view", help="write a page that shows a cell or plays a plan", allow_abbrev=False
+        "view",
+        help="write a page that plays a plan, or shows why there is none",
+        allow_abbrev=False,
     )
     view.add_argument("cell", metavar="CELL", help="cell file (YAML)")
-    view.add_argument("plan", metavar="PLAN", nargs="?", help="plan file (JSON)")
+    view.add_argument(
+        "plan",
+        metavar="PLAN",
+        nargs="?",
+        help="plan file, or the file of plan --report (JSON; default: plan the task)",
+    )
     view.add_argument("-o", "--output", metavar="HTML", help="page (default: name of CELL + .html)")
-    view.set_defaults(run=view_command)
+    _add_planning(view)
+    view.set_defaults(run=view_command, json=False)
 
     inspect = commands.add_parser(
         "inspect", help="tell what a part, a robot or a cell is", allow_abbrev=False

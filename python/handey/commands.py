@@ -1,4 +1,4 @@
-"""What `handey plan`, `handey check` and `handey view` do, and with which exit status they end.
+"""What `handey plan` and `handey check` do, and with which exit status they end.
 
 A plan is checked by the independent replay before it is written; one that fails is not written.
 Nothing heavy is imported before it is needed.
@@ -10,11 +10,12 @@ import argparse
 import math
 import os
 import queue
+import shlex
 import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import handey
 from handey.errors import Fault, InvalidInput
@@ -31,8 +32,8 @@ __all__ = [
     "check_command",
     "deadline_passed",
     "keep_inputs",
+    "plan_and_check",
     "plan_command",
-    "view_command",
     "within",
 ]
 
@@ -59,16 +60,21 @@ def plan_command(options: argparse.Namespace) -> int:
     output = Path(options.output or f"{Path(options.cell).stem}.plan.json")
     require_writable(output)
     keep_inputs([options.cell], output)
+    if options.report:
+        require_writable(options.report)
+        keep_inputs([options.cell, str(output)], Path(options.report))
     cancel, line = CancelToken(), ProgressLine(options)
     left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
     try:
-        work = within(left, lambda: _plan_and_check(options, start, cancel, line), cancel)
+        work = within(left, lambda: plan_and_check(options, start, cancel, line), cancel)
     except DeadlinePassedError:
         line.end()
+        _write_report(options, Path(options.cell).stem, {"deadline_passed": True})
         return deadline_passed(options, start)
     finally:
         line.end()
     cell, result, checked = work
+    _write_report(options, cell.name, result.report.as_dict())
     summary = plan_summary(cell, result, checked)
     if cancel.cancelled:
         told = {"verdict": "unknown", "cancelled": True}
@@ -77,7 +83,8 @@ def plan_command(options: argparse.Namespace) -> int:
         complain("interrupted")
         return INTERRUPTED
     if result.plan is None:
-        tell(options, summary, no_plan_lines(cell, result, options.verbose))
+        lines = [*no_plan_lines(cell, result, options.verbose), _where_to_see(options)]
+        tell(options, summary, lines)
         return DEADLINE if result.report.deadline_passed else NO_PLAN
     assert checked is not None
     if not checked.ok:
@@ -92,9 +99,22 @@ def plan_command(options: argparse.Namespace) -> int:
     return OK
 
 
-def _plan_and_check(
+def _write_report(options: argparse.Namespace, cell: str, report: dict[str, Any]) -> None:
+    if options.report:
+        from handey.report_file import write_report
+
+        write_report(options.report, cell, report)
+
+
+def _where_to_see(options: argparse.Namespace) -> str:
+    told = f" {shlex.quote(options.report)}" if options.report else ""
+    return f"to see it: handey view {shlex.quote(options.cell)}{told}"
+
+
+def plan_and_check(
     options: argparse.Namespace, start: float, cancel: CancelToken, line: ProgressLine
 ) -> tuple[CellFile, PlanResult, CheckReport | None]:
+    """Reads the cell, plans its task and checks the plan; the check is None without one."""
     from handey.cell_file import load_cell
 
     cell = load_cell(options.cell)
@@ -188,31 +208,6 @@ def check_command(options: argparse.Namespace) -> int:
         lines.append(f"  least clearance: {clearance * 1e3:.2f} mm")
     tell(options, summary, lines)
     return OK if checked.ok else NOT_VALID
-
-
-def view_command(options: argparse.Namespace) -> int:
-    """Writes a page that shows a cell, or plays a plan in it."""
-    from handey.output import require_writable
-
-    output = Path(options.output or f"{Path(options.cell).stem}.html")
-    require_writable(output)
-    keep_inputs([options.cell, options.plan], output)
-    from handey.cell_file import load_cell
-    from handey.plan import Plan
-
-    warn(options, load_cell(options.cell).warnings)
-    if options.plan is not None:
-        Plan.load(options.plan)
-    from handey.view import write_page
-
-    try:
-        write_page(options.cell, options.plan, output)
-    except OSError as error:
-        message = f"cannot be written: {error.strerror or error}"
-        raise InvalidInput(Fault("E_OUTPUT", "", message, str(output))) from error
-    if not options.quiet:
-        print(f"page: {output}")
-    return OK
 
 
 def keep_inputs(inputs: Sequence[str | None], output: Path) -> None:

@@ -17,7 +17,7 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-__all__ = ["ProgressLine", "complain", "one_line", "tell", "warn"]
+__all__ = ["ProgressLine", "complain", "finite", "one_line", "tell", "warn"]
 
 REDRAWN_EVERY = 0.1  # Choice: faster than this nobody reads [s]
 
@@ -36,18 +36,18 @@ def one_line(text: str) -> str:
 def tell(options: argparse.Namespace, summary: dict[str, Any], lines: list[str]) -> None:
     """The result, as one JSON object or as lines, on standard output."""
     if options.json:
-        print(json.dumps(_finite(summary), default=str))
+        print(json.dumps(finite(summary), default=str))
     elif not options.quiet:
         for line in lines:
             print(line)
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
     """JSON has no infinities: null instead."""
     if isinstance(value, dict):
-        return {key: _finite(entry) for key, entry in value.items()}
+        return {key: finite(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_finite(entry) for entry in value]
+        return [finite(entry) for entry in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

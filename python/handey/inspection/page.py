@@ -7,10 +7,9 @@ close, a way to rest, a part of the cell.
 
 from __future__ import annotations
 
-import json
 import os
-from importlib import resources
 
+from handey.html_page import asset, filled, html_page
 from handey.inspection.cell import CellReport
 from handey.inspection.cell_page import cell_page
 from handey.inspection.markup import escaped
@@ -40,21 +39,12 @@ def write_page(report: PartReport | RobotReport | CellReport, path: str | os.Pat
         kind, content, scene = "robot", robot_page(report), robot_scene(report)
     else:
         kind, content, scene = "cell", cell_page(report), cell_scene(report)
-    assets = resources.files(__package__)
-    written = json.dumps(scene, separators=(",", ":"), allow_nan=False)
-    parts = {
-        "title": escaped(report.name),
-        "kind": kind,
-        "style": assets.joinpath("style.css").read_text(encoding="utf-8"),
-        "script": assets.joinpath("inspect.js").read_text(encoding="utf-8"),
-        "content": content,
-        "scene": written.replace("<", "\\u003c"),
-    }
-    page = assets.joinpath("page.html").read_text(encoding="utf-8")
-    # In one pass, so that a name with braces in it stays what it is.
-    pieces = page.split("{{")
-    filled = [pieces[0]]
-    for piece in pieces[1:]:
-        key, _, rest = piece.partition("}}")
-        filled += [parts[key], rest]
-    write_whole(path, "".join(filled))
+    parts = {"title": escaped(report.name), "kind": kind, "content": content}
+    page = html_page(
+        report.name,
+        asset(__package__, "style.css"),
+        filled(asset(__package__, "page.html"), parts),
+        asset(__package__, "inspect.js"),
+        scene,
+    )
+    write_whole(path, page)

@@ -6,7 +6,7 @@ One HTML file that needs no network and no server; see `page` for what is in it.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +17,9 @@ from handey.errors import Fault, InvalidInput
 from handey.fields import Field
 from handey.output import write_whole
 from handey.report import Report
-from handey.strict_json import read_json
+from handey.report_file import ToldReport, is_report, read_report, read_report_file
 from handey.strict_yaml import Document
 from handey.view.page import cell_page
-from handey.view.report_file import ToldReport, read_report
 
 __all__ = ["make_page", "write_page"]
 
@@ -32,6 +31,7 @@ def write_page(
     plan: PathLike | Mapping[str, Any] | None,
     path: PathLike,
     report: Report | Mapping[str, Any] | None = None,
+    notes: Sequence[str] = (),
 ) -> None:
     """Writes the page, whole or not at all.
 
@@ -41,19 +41,20 @@ def write_page(
             start.
         path: the HTML file to write.
         report: how planning went; the plan's own by default.
+        notes: what there is to say besides.
 
     Raises:
         InvalidInput: if the cell, the plan or the report cannot be read; E_OUTPUT if the page
             cannot be written.
     """
-    write_whole(path, make_page(cell, plan, report))
+    write_whole(path, make_page(cell, plan, report, notes))
 
 
 def make_page(
     cell: PathLike,
     plan: PathLike | Mapping[str, Any] | None,
     report: Report | Mapping[str, Any] | None = None,
-    notes: list[str] | None = None,
+    notes: Sequence[str] = (),
     *,
     live: bool = False,
 ) -> str:
@@ -67,11 +68,8 @@ def make_page(
         live: the page waits for news from the server that it comes from.
     """
     content = read_cell(Path(cell))
-    data = None
-    if plan is not None:
-        data, own = _read(plan, content)
-        report = own if report is None else report
-    told = None if report is None else _told(report)
+    data, own = (None, None) if plan is None else _read(plan, content)
+    told = own if report is None else _told(report)
     if notes:
         told = told or ToldReport("unknown" if data is None else "plan")
         told.notes += notes
@@ -80,12 +78,12 @@ def make_page(
 
 def _read(
     source: PathLike | Mapping[str, Any], cell: Cell
-) -> tuple[PlanData | None, Mapping[str, Any] | ToldReport | None]:
+) -> tuple[PlanData | None, ToldReport | None]:
     """The plan, if it is one, and what it tells of its planning."""
     given = source if isinstance(source, Mapping) else Path(source)
     content, name = load_json(given)
-    if "handey_report" in content and "handey_plan" not in content and isinstance(given, Path):
-        return None, _read_report_file(given)
+    if isinstance(given, Path) and is_report(content):
+        return None, read_report_file(given)
     report = CheckReport()
     data = read_plan(content, cell, report)
     if data is None:
@@ -99,18 +97,7 @@ def _read(
         return data, None
 
 
-def _read_report_file(path: Path) -> ToldReport:
-    document = read_json(path)
-    entries = dict(document.value)
-    Field(document, ("handey_report",), entries.pop("handey_report")).version(1)
-    told = read_report(Field(document, (), entries))
-    document.raise_faults()
-    return told or ToldReport()
-
-
-def _told(report: Report | Mapping[str, Any] | ToldReport) -> ToldReport | None:
-    if isinstance(report, ToldReport):
-        return report
+def _told(report: Report | Mapping[str, Any]) -> ToldReport | None:
     value = report.as_dict() if isinstance(report, Report) else dict(report)
     document = Document("report", Path(), value)
     told = read_report(Field(document, (), value))

@@ -11,7 +11,7 @@ import html
 from handey.check.cell import Cell
 from handey.check.plan_data import PlanData
 from handey.html_page import asset, filled, html_page, script_of
-from handey.view.report_file import ToldReport
+from handey.report_file import ToldReport
 from handey.view.scene import cell_scene, tried_scene
 from handey.view.told import told
 

@@ -20,7 +20,7 @@ from handey.check.shapes import Shape
 from handey.check.values import Array
 from handey.reasons import STAGES, Tried
 from handey.report import GoalReport
-from handey.view.report_file import ToldReport
+from handey.report_file import ToldReport
 
 __all__ = ["cell_scene", "packed", "tried_scene"]
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from handey.advice import Advice
 from handey.reasons import Reason, Stage
 from handey.report import GoalReport
-from handey.view.report_file import ToldReport
+from handey.report_file import ToldReport
 
 __all__ = ["STAGE_WORDS", "told"]
 

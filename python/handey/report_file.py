@@ -1,21 +1,28 @@
-"""Reads the report of planning back: from a plan file, or from the file of `handey plan --report`.
+"""The report of planning as a file, and read back from there or from a plan file.
 
-Only what the page shows is read. Entries that are missing are empty, entries that nobody knows are
+Only what pages show is read. Entries that are missing are empty, entries that nobody knows are
 passed over: a report may be older or newer than the page. What is of a wrong kind is a fault.
 """
 
 from __future__ import annotations
 
+import json
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from handey.advice import Advice, Edit
 from handey.fields import Field, kind_of
+from handey.output import write_whole
 from handey.reasons import STAGES, Reason, Stage, Tried
 from handey.report import Attempt, GoalReport
+from handey.strict_json import read_json
+from handey.terminal import finite
 
-__all__ = ["ToldReport", "read_report"]
+__all__ = ["ToldReport", "is_report", "read_report", "read_report_file", "write_report"]
+
+VERSION = 1
 
 Value = TypeVar("Value")
 _Entries = dict[str, Field]
@@ -42,6 +49,42 @@ class ToldReport:
     notes: list[str] = field(default_factory=list)
 
 
+def write_report(path: str | os.PathLike[str], cell: str, report: dict[str, Any]) -> None:
+    """Writes the file, whole or not at all.
+
+    Args:
+        path: of the file.
+        cell: name of the cell.
+        report: of planning, as a dict.
+
+    Raises:
+        InvalidInput: E_OUTPUT if it cannot be written.
+    """
+    content = {"handey_report": VERSION, "cell": cell} | finite(report)
+    write_whole(path, json.dumps(content, default=str, allow_nan=False) + "\n")
+
+
+def is_report(content: Any) -> bool:
+    """Does the content of a JSON file say that it is a report, and no plan?"""
+    named = isinstance(content, dict) and "handey_report" in content
+    return named and "handey_plan" not in content
+
+
+def read_report_file(path: str | os.PathLike[str]) -> ToldReport:
+    """The report in a file of `write_report`.
+
+    Raises:
+        InvalidInput: with every fault of the file.
+    """
+    document = read_json(path)
+    entries = _entries(Field(document, (), document.value))
+    if "handey_report" in entries:
+        entries["handey_report"].version(VERSION)
+    told = read_report(Field(document, (), document.value))
+    document.raise_faults()
+    return told or ToldReport()
+
+
 def read_report(report: Field) -> ToldReport | None:
     """The report at this place of a document, which then holds the faults.
 
@@ -60,8 +103,13 @@ def read_report(report: Field) -> ToldReport | None:
     verdict = (
         entries["verdict"].choice("plan", "infeasible", "unknown") if "verdict" in entries else ""
     )
-    times = {key: _number(entries, key, None) for key in ("cpu_s", "wall_s")}
-    return ToldReport(verdict or "unknown", goals, ", ".join(stopped), **times)
+    return ToldReport(
+        verdict or "unknown",
+        goals,
+        ", ".join(stopped),
+        cpu_s=_number(entries, "cpu_s", None),
+        wall_s=_number(entries, "wall_s", None),
+    )
 
 
 def _goal(index: int, field: Field) -> GoalReport:
