@@ -92,6 +92,19 @@ void bind_robot_parts(py::module_& m) {
       .def_readonly("acceleration", &Gripper::acceleration, "Of one finger [m/s2].");
 }
 
+std::shared_ptr<Robot> with_jaws(const Robot& robot, const py::object& max_opening) {
+  const double opening = real_number(max_opening, "max_opening");
+  if (!(opening > robot.gripper.min_opening)) {
+    throw InvalidInput("E_RANGE", "max_opening",
+                       "expected more than the least opening of " +
+                           std::to_string(robot.gripper.min_opening) + " m, found " +
+                           std::to_string(opening));
+  }
+  std::shared_ptr<Robot> wider = std::make_shared<Robot>(robot);
+  wider->gripper.max_opening = opening;
+  return wider;
+}
+
 void bind_robot(py::module_& m) {
   py::class_<Robot, std::shared_ptr<Robot>>(m, "Robot",
                                             "A robot as URDF and robot file describe it.")
@@ -106,6 +119,12 @@ void bind_robot(py::module_& m) {
           "(n,) [rad]; a copy.")
       .def_readonly("ignored_pairs", &Robot::ignored_pairs,
                     "Body indices never checked against each other, from the robot file.")
+      .def(
+          "with_jaws", &with_jaws, py::arg("max_opening"),
+          R"(The same robot, whose jaws open farther or less far; whether its fingers can is not asked.
+
+Args:
+    max_opening: greatest distance between the pads [m].)")
       .def("__repr__", [](const Robot& self) {
         return "<Robot '" + self.name + "' with " + std::to_string(self.joints.size()) + " joints>";
       });

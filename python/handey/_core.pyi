@@ -699,6 +699,13 @@ class Robot:
     A robot as URDF and robot file describe it.
     """
     def __repr__(self) -> str: ...
+    def with_jaws(self, max_opening: typing.Any) -> Robot:
+        """
+        The same robot, whose jaws open farther or less far; whether its fingers can is not asked.
+
+        Args:
+            max_opening: greatest distance between the pads [m].
+        """
     @property
     def bodies(self) -> list[RobotBody]:
         """

@@ -20,20 +20,24 @@ from handey.measured import with_depth_maps
 from handey.refusals import find_refusals, find_warnings
 from handey.robot_file import load_robot
 
-__all__ = ["assemble"]
+__all__ = ["assemble", "assemble_like"]
 
 LIMIT_TOLERANCE = 1e-9  # of the format [rad, m]
 
 
-def assemble(entry: CellEntry) -> CellFile:
+def assemble(entry: CellEntry, robot: _core.Robot | None = None) -> CellFile:
     """The cell that the entries of a file describe.
+
+    Args:
+        entry: the content of the file.
+        robot: takes the place of the one that the robot's file describes.
 
     Raises:
         InvalidInput: with all faults of robot and meshes, or with all that cannot be.
     """
     faults: list[Fault] = []
     warnings: list[str] = []
-    robot = _robot(entry.robot, faults, warnings)
+    robot = robot or _robot(entry.robot, faults, warnings)
     bodies = {body.name: _body(body, faults, warnings) for body in (*entry.fixtures, *entry.parts)}
     start = None if robot is None else _start(entry.robot, robot, faults)
     if faults or robot is None or start is None:
@@ -57,6 +61,44 @@ def assemble(entry: CellEntry) -> CellFile:
     warnings += find_warnings(cell)
     file = Path(entry.document.file) if entry.document.file else None
     return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry)
+
+
+def assemble_like(
+    entry: CellEntry, like: CellFile, robot: _core.Robot | None = None
+) -> CellFile:
+    """The cell of an entry that differs from another's in little; nothing is refused, quickly.
+
+    Args:
+        entry: has no depth maps; those of `like` are taken as they are.
+        like: whose shapes are taken for the bodies of the same names.
+        robot: as in `assemble`; by default that of `like`.
+
+    Raises:
+        InvalidInput: if the robot's start or a body is wrong.
+    """
+    faults: list[Fault] = []
+    robot = robot or like.cell.robot
+    shapes = {body.name: body.shapes for body in (*like.cell.fixtures, *like.cell.parts)}
+
+    def made(body: BodyEntry) -> _core.Body | None:
+        if body.name in shapes:
+            return _with_shapes(body, shapes[body.name])
+        return _body(body, faults, [])
+
+    fixtures, parts = [made(it) for it in entry.fixtures], [made(it) for it in entry.parts]
+    start = _start(entry.robot, robot, faults)
+    if faults or start is None:
+        raise InvalidInput(faults)
+    measured = like.cell.fixtures[len(like.entry.fixtures) :]
+    cell = _core.Cell(
+        name=entry.name,
+        robot=robot,
+        X_WR=entry.robot.X_WR,
+        fixtures=[*(body for body in fixtures if body is not None), *measured],
+        parts=[body for body in parts if body is not None],
+        start=start,
+    )
+    return CellFile(like.file, cell, entry.task, like.depth_maps, (), entry)
 
 
 def _robot(place: RobotPlace, faults: list[Fault], warnings: list[str]) -> _core.Robot | None:
@@ -98,8 +140,10 @@ def _start(
 def _body(body: BodyEntry, faults: list[Fault], warnings: list[str]) -> _core.Body | None:
     made = [_shape(body, shape, faults, warnings) for shape in body.shapes]
     shapes = [shape for shape in made if shape is not None]
-    if len(shapes) < len(made):
-        return None
+    return None if len(shapes) < len(made) else _with_shapes(body, shapes)
+
+
+def _with_shapes(body: BodyEntry, shapes: list[_core.Shape]) -> _core.Body:
     return _core.Body(
         name=body.name,
         shapes=shapes,

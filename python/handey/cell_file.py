@@ -25,7 +25,15 @@ from handey.task import Goal, Task, read_goals
 if TYPE_CHECKING:
     from handey import _core
 
-__all__ = ["CellEntry", "CellFile", "RobotPlace", "load_cell", "parse_cell", "read_cell"]
+__all__ = [
+    "CellEntry",
+    "CellFile",
+    "RobotPlace",
+    "load_cell",
+    "parse_cell",
+    "read_cell",
+    "read_document",
+]
 
 VERSION = 1
 
@@ -100,7 +108,7 @@ def read_cell(path: str | os.PathLike[str]) -> CellEntry:
     Raises:
         InvalidInput: with every fault of the structure.
     """
-    return _read(read_yaml(path))
+    return read_document(read_yaml(path))
 
 
 def load_cell(path: str | os.PathLike[str]) -> CellFile:
@@ -125,7 +133,7 @@ def parse_cell(cell: Mapping[str, Any], base_folder: str | os.PathLike[str] = ".
     Raises:
         InvalidInput: as `load_cell`.
     """
-    entry = _read(Document("", Path(base_folder), _plain(cell)))
+    entry = read_document(Document("", Path(base_folder), _plain(cell)))
     from handey.assembly import assemble
 
     return assemble(entry)
@@ -142,7 +150,12 @@ def _plain(value: Any) -> Any:
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
-def _read(document: Document) -> CellEntry:
+def read_document(document: Document) -> CellEntry:
+    """Reads the structure and the names of a cell from the values of its file.
+
+    Raises:
+        InvalidInput: with every fault of the structure.
+    """
     entries = Field(document, (), document.value).mapping(
         required=("handey_cell", "name", "robot", "task"),
         optional=("fixtures", "parts", "depth_maps", "order", "finish"),

@@ -51,6 +51,8 @@ class PlanOptions:
         thorough: the last round may take all the time that its gross motions want.
         regrasp: budgets of step 7.
         prove: look for a proof that there is no plan where the first tries fail.
+        advice: where no plan is found, look for the nearest change with which there is one.
+        advice_seconds: of wall-clock time for that.
 
     Raises:
         TypeError: if a number is none.
@@ -69,6 +71,8 @@ class PlanOptions:
     thorough: bool = True
     regrasp: RegraspOptions = field(default_factory=RegraspOptions)
     prove: bool = True
+    advice: bool = True
+    advice_seconds: float = 1.0
 
     def __post_init__(self) -> None:
         _require_whole("seed", self.seed, 0, GREATEST_SEED)
@@ -78,14 +82,17 @@ class PlanOptions:
             raise _out_of_range("sampling_rounds", "expected at least one number, found none")
         for iterations in self.sampling_rounds:
             _require_whole("sampling_rounds", iterations, 1, MOST_ITERATIONS)
-        if self.deadline is None:
-            return
-        if isinstance(self.deadline, bool) or not isinstance(self.deadline, numbers.Real):
-            expected = "expected a number of seconds or None"
-            raise TypeError(f"deadline: {expected}, found {self.deadline!r}")
-        if not (math.isfinite(self.deadline) and self.deadline > 0):
-            expected = "expected a finite number of seconds greater than 0"
-            raise _out_of_range("deadline", f"{expected}, found {self.deadline}")
+        if self.deadline is not None:
+            _require_seconds("deadline", self.deadline, "a number of seconds or None")
+        _require_seconds("advice_seconds", self.advice_seconds, "a number of seconds")
+
+
+def _require_seconds(name: str, value: object, expected: str) -> None:
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name}: expected {expected}, found {value!r}")
+    if not (math.isfinite(value) and float(value) > 0):
+        wanted = "expected a finite number of seconds greater than 0"
+        raise _out_of_range(name, f"{wanted}, found {value}")
 
 
 def _require_whole(name: str, value: object, least: int, most: int) -> None:

@@ -17,6 +17,7 @@ from functools import cache
 import numpy as np
 
 from handey import _core
+from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, Interrupted, InvalidInput, Stopped
@@ -120,6 +121,8 @@ def plan(
         failed = [goal for goal in report.goals if goal.status == "failed"]
         exhausted = bool(failed) and all(goal.exhausted for goal in failed)
         report.verdict = "infeasible" if exhausted and not report.stopped else "unknown"
+        if options.advice and not report.stopped:
+            _advise(cell_file, options, clock, report, cancel)
         return PlanResult(None, report)
     report.verdict = "plan"
     result = Plan(
@@ -130,6 +133,36 @@ def plan(
     )
     report.duration_s = round(state.clock, 6)
     return PlanResult(replace(result, report=report.as_dict()), report)
+
+
+def _advise(
+    cell_file: CellFile,
+    options: PlanOptions,
+    clock: StageClock,
+    report: Report,
+    cancel: _core.CancelToken | None,
+) -> None:
+    """Look for the nearest change that plans, within what is left of the time; never an error."""
+    left = options.advice_seconds
+    if options.deadline is not None:
+        left = min(left, options.deadline - report.wall_s)
+    if left <= 0:
+        return
+    begin_wall, begin_cpu = time.perf_counter(), time.process_time()
+    wanted = replace(options, advice_seconds=left)
+    try:
+        with clock("advice"):
+            _core.run_within(
+                lambda: find_advice(cell_file, wanted, report, plan), cancel=cancel, deadline=left
+            )
+    except Stopped:
+        pass  # what was found so far is not certain
+    except KeyboardInterrupt as error:
+        raise Interrupted(report) from error
+    finally:
+        report.stages["advice"] = round(clock.seconds.get("advice", 0.0), 6)
+        report.cpu_s = round(report.cpu_s + time.process_time() - begin_cpu, 6)
+        report.wall_s = round(report.wall_s + time.perf_counter() - begin_wall, 6)
 
 
 def _reach_goals(

@@ -1,0 +1,258 @@
+"""The nearest change with which a failed goal plans: which to try first, and how small it may be.
+
+What the goal fell by says which kinds of changes are plausible, and what met the hand or arm says
+which bodies to move. These are tried at sizes far apart, the most plausible first; the first that
+plans is made as small as it may be, and what is left of the time goes to cheaper kinds.
+Not guaranteed: that there is no smaller change, or, where none is told, that there is none.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+
+from handey import _core
+from handey.advice import Advice
+from handey.advising import cell_changes, gripping, poses
+from handey.advising.change import Change, Family, written
+from handey.advising.situation import Situation
+from handey.advising.trials import Planner, Trials
+from handey.cell_file import CellFile
+from handey.plan_options import PlanOptions
+from handey.reasons import Reason
+from handey.report import Report
+
+__all__ = ["find_advice"]
+
+MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
+FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
+WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
+WAVE = 4.0  # Choice: as much less plausible is each further size of a family
+NAMED = 2.0  # weight of a body that a reason names
+MOTIONS = ("approach", "departure", "deposit", "withdrawal", "transit", "transfer", "home")
+
+
+def find_advice(
+    cell_file: CellFile, options: PlanOptions, report: Report, planner: Planner
+) -> None:
+    """Tell the first failed goal's nearest change in its report, where one is found in time.
+
+    The cause, too, is told more closely: where the goal plans without one single body, that is in
+    the way.
+
+    Args:
+        cell_file: whose planning failed.
+        options: of that planning; `advice_seconds` bounds the time.
+        report: of it.
+        planner: plans a changed cell.
+    """
+    start = time.perf_counter()
+    failed = next((goal for goal in report.goals if goal.status == "failed"), None)
+    if failed is None:
+        return
+    model = _core.make_collision_model(cell_file.cell)
+    here = Situation(cell_file, failed.goal, failed, model)
+    end = start + (1 - FOR_PROOF) * options.advice_seconds
+    search = _Search(here, Trials(here, options, planner, end))
+    search.run()
+    search.trials.end = start + options.advice_seconds
+    for change in sorted(search.found, key=lambda change: change.cost):
+        if search.trials.holds(change):
+            failed.advice = _advice(change, failed.goal)
+            break
+    if search.culprit and failed.cause is not None and failed.cause.kind in MOTIONS:
+        failed.cause = _blaming(failed.cause, search.culprit)
+
+
+def _advice(change: Change, goal: int) -> Advice:
+    edits = "; ".join(
+        f"{edit.place}: {'taken out' if edit.value is None else written(edit.value)}"
+        for edit in change.edits
+    )
+    text = f"{change.words} ({edits}): then goal {goal} plans"
+    return Advice(change.kind, text, change.edits, change.size)
+
+
+def _blaming(cause: Reason, body: str) -> Reason:
+    bodies = (body, *(name for name in cause.bodies if name != body))
+    return replace(cause, text=f"{cause.text}; without {body} it plans", bodies=bodies)
+
+
+@dataclass
+class _Search:
+    """Tries families of changes, one size after the other.
+
+    Attributes:
+        here: the goal that failed.
+        trials: plans with changes.
+        found: changes that planned.
+        culprit: a body without which it plans.
+    """
+
+    here: Situation
+    trials: Trials
+    found: list[Change] = field(default_factory=list)
+    culprit: str = ""
+    without: dict[str, bool] = field(default_factory=dict)
+
+    def run(self) -> None:
+        """Try until the time is over."""
+        tries = sorted(self._tries(), key=lambda it: it[0])
+        failed: dict[int, list[float]] = {}
+        done: set[int] = set()
+        for _, family, size in tries:
+            if self.trials.left <= 0:
+                return
+            if id(family) in done:
+                continue
+            change = family.make(size)
+            if change is None or not self._is_worth(change) or self._is_vain(family, failed):
+                continue
+            if self.trials.plans(change):
+                done.add(id(family))
+                self.found.append(change)
+                self._shrink(family, size, failed.get(id(family), []))
+            else:
+                failed.setdefault(id(family), []).append(size)
+        for name, plans in self.without.items():
+            change = poses.removed(self.here, name)
+            if plans and change is not None and self._is_worth(change):
+                self.found.append(change)
+
+    def _is_worth(self, change: Change) -> bool:
+        best = min((found.cost for found in self.found), default=float("inf"))
+        return change.cost < WORTH * best
+
+    def _is_vain(self, family: Family, failed: dict[int, list[float]]) -> bool:
+        """Does it not even plan without the body that the family moves?"""
+        if not family.body:
+            return False
+        if family.body not in self.without:
+            change = poses.removed(self.here, family.body)
+            self.without[family.body] = change is None or self.trials.plans(change)
+            if change is not None and self.without[family.body] and not self.culprit:
+                self.culprit = family.body
+        return not self.without[family.body]
+
+    def _shrink(self, family: Family, size: float, failed: list[float]) -> None:
+        """Halve the gap between what plans and what does not."""
+        if family.step <= 0:
+            return
+        low = max((it for it in failed if it < size), default=0.0)
+        while size - low > 1.5 * family.step and self.trials.left > 0:
+            middle = family.step * round(0.5 * (low + size) / family.step)
+            change = family.make(middle)
+            if change is not None and self.trials.plans(change):
+                self.found.append(change)
+                size = middle
+            else:
+                low = middle
+
+    def _tries(self) -> Iterator[tuple[float, Family, float]]:
+        """All that may be tried, with how implausible it is."""
+        for family, rank in self._families():
+            for wave, size in enumerate(family.sizes):
+                yield rank + family.rank + WAVE * wave, family, size
+
+    def _families(self) -> Iterator[tuple[Family, float]]:
+        """Each family of changes with its rank among all."""
+        here = self.here
+        ranks = _ranks(here)
+        blamed = list(dict.fromkeys(blame.name for blame in here.blamed))
+        parts = [name for name in blamed if here.is_part(name)]
+        ends = list(here.ends)
+        makers: dict[str, Callable[[], Iterator[Family]]] = {
+            "jaws": lambda: gripping.wider_jaws(here),
+            "friction": lambda: gripping.frictions(here),
+            "support": lambda: cell_changes.supports(here),
+            "may move": lambda: cell_changes.yielding(here, parts[:MOST_BODIES]),
+            "order": lambda: cell_changes.orders(here),
+            "earlier goal": lambda: cell_changes.sooner(here, parts[:2]),
+            "region": lambda: cell_changes.other_places(here),
+            "robot start": lambda: cell_changes.robot_starts(here),
+            "finish": lambda: cell_changes.finish(here),
+        }
+        for kind, make in makers.items():
+            for family in make():
+                yield family, ranks.get(kind, LATE)
+        seen: set[str] = set()
+        for order, blame in enumerate(here.blamed):
+            if blame.name in seen or len(seen) >= MOST_BODIES:
+                continue
+            seen.add(blame.name)
+            for family in poses.moved_bodies(here, blame):
+                yield family, ranks.get("moved", LATE) + order
+        for end in ends:
+            away = [b.name for b in here.blamed if b.end == end and b.weight >= NAMED]
+            away = [
+                name
+                for name in away
+                if all(p != here.goal.part for p, _ in here.loads.get(name, []))
+            ]
+            for family in poses.shifts(here, end, away):
+                yield family, ranks.get(f"shift {end}", LATE)
+            for family in poses.turns(here, end):
+                yield family, ranks.get(f"turn {end}", LATE)
+
+
+LATE = 12.0  # Choice: rank of what the reasons do not suggest
+
+# What a reason suggests, the likeliest first; {end} is its end, or both where it names none.
+SUGGESTED = {
+    "would_fall": ("may move", "order", "earlier goal"),
+    "unstable": ("shift destination", "order"),
+    "in_the_way": ("may move", "order", "earlier goal", "shift destination"),
+    "no_place": ("region", "may move", "moved", "earlier goal", "order"),
+    "no_features": ("jaws",),
+    "too_wide": ("jaws", "support"),
+    "slips": ("friction", "jaws"),
+    "obstructed": ("moved", "shift {end}", "turn {end}", "may move", "support"),
+    "little_contact": ("shift {end}", "turn {end}", "moved", "jaws"),
+    "turns": ("friction", "support"),
+    "out_of_reach": ("shift {end}", "turn {end}", "moved"),
+    "joint_limit": ("turn {end}", "shift {end}", "support", "moved"),
+    "collision": ("moved", "shift {end}", "turn {end}", "may move", "support"),
+    "approach": ("moved", "shift origin", "turn origin", "may move"),
+    "departure": ("moved", "shift origin", "turn origin", "may move"),
+    "deposit": ("moved", "shift destination", "turn destination", "may move"),
+    "withdrawal": ("moved", "shift destination", "turn destination", "may move"),
+    "transit": ("moved", "robot start", "may move", "shift origin"),
+    "transfer": ("moved", "shift destination", "turn destination", "may move", "shift origin"),
+    "home": ("finish", "robot start", "moved"),
+    "no_regrasp": ("support", "turn destination", "turn origin"),
+}  # fmt: skip
+
+
+def _ranks(here: Situation) -> dict[str, float]:
+    """How plausible each kind of change is: 0 for what the cause suggests first."""
+    ranks: dict[str, float] = {}
+    kinds = list(dict.fromkeys((reason.kind, reason.end) for reason in here.reasons))
+    if not kinds:
+        return dict(_UNKNOWN)
+    for order, (kind, end) in enumerate(kinds):
+        ends = [end] if end else ["origin", "destination"]
+        for place, wanted in enumerate(SUGGESTED.get(kind, ())):
+            for each in ends:
+                name = wanted.format(end=each)
+                ranks[name] = min(ranks.get(name, LATE), 1.5 * place + 3.0 * order)
+    return ranks
+
+
+# Where no typed reason is known.
+_UNKNOWN = {
+    "jaws": 0.0,
+    "moved": 0.5,
+    "shift destination": 1.0,
+    "turn destination": 1.5,
+    "may move": 2.0,
+    "order": 2.0,
+    "support": 3.0,
+    "region": 0.0,
+    "shift origin": 3.0,
+    "turn origin": 3.5,
+    "friction": 4.0,
+    "robot start": 4.0,
+    "finish": 5.0,
+    "earlier goal": 6.0,
+}

@@ -1,0 +1,217 @@
+"""Changes of where things are: a body moved, an end of the part's way shifted or turned.
+
+A fixture takes along what stands on it: parts, and goals. The goal, or the start of the part, is
+shifted level and turned about the vertical. Not guaranteed: that a part stands at its new place;
+that is asked when the change is tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from handey.advice import Edit
+from handey.advising.change import Change, Family
+from handey.advising.situation import Blame, Situation
+from handey.task import PlaceAt
+
+__all__ = ["moved_bodies", "removed", "shifts", "turns"]
+
+# Choice: sizes in the order to try them: likely ones first [m, rad].
+MOVES = (0.06, 0.15, 0.02, 0.3)
+SHIFTS = (0.05, 0.02, 0.12, 0.25)
+TURNS = tuple(np.radians((30.0, 90.0, 60.0, 180.0)))
+STEP, TURN_STEP = 0.005, float(np.radians(5.0))
+AXES = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0, 1, 0), "-y": (0, -1, 0), "+z": (0, 0, 1)}
+
+
+def _rounded(values: np.ndarray) -> list[float]:
+    return [round(float(value), 6) + 0.0 for value in values]
+
+
+def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
+    """A fixture, or another part, moved away from the part along an axis of the world.
+
+    A fixture takes along all that stands on it.
+    """
+    name = blame.name
+    is_part = here.is_part(name)
+    load = here.loads.get(name, [])
+    if name not in here.content.get("parts" if is_part else "fixtures", {}):
+        return
+    if is_part and (load or any(goal.part == name for goal in here.cell_file.goals)):
+        return
+    for order, axis in enumerate(_away(here, blame)):
+        yield Family(
+            "part moved" if is_part else "fixture moved",
+            _mover(here, name, axis),
+            MOVES,
+            rank=0.7 * order + (3.0 if load else 0.0),
+            step=STEP,
+            body="" if load else name,
+        )
+
+
+def _mover(here: Situation, name: str, axis: str) -> Callable[[float], Change]:
+    is_part = here.is_part(name)
+    places: list[tuple[str, Any]] = [("parts" if is_part else "fixtures", name)]
+    also = []
+    for part, index in here.loads.get(name, []):
+        if index < 0:
+            places.append(("parts", part))
+            also.append(part)
+        elif isinstance(here.cell_file.goals[index], PlaceAt):
+            places.append(("task", index))
+            also.append(f"the goal of {part}")
+    load = f" with {' and '.join(dict.fromkeys(also))} on it" if also else ""
+
+    def make(size: float) -> Change:
+        by = size * np.array(AXES[axis], dtype=float)
+        edits = [_shifted(here, place, by) for place in places]
+        words = f"move {name}{load} by {1e3 * size:.0f} mm along {axis}"
+        kind = "part moved" if is_part else "fixture moved"
+        return Change(kind, words, tuple(edits), size)
+
+    return make
+
+
+def _pose(here: Situation, place: tuple[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Where the file gives the pose of a body or goal, and what it gives."""
+    kind, key = place
+    entry = here.content[kind][key]
+    if kind == "task":
+        return f"task[{key}].at", entry["at"]
+    return f"{kind}.{key}.pose", entry.get("pose") or {}
+
+
+def _shifted(here: Situation, place: tuple[str, Any], by: np.ndarray) -> Edit:
+    """The edit that shifts a pose by so much (3,) [m]."""
+    where, pose = _pose(here, place)
+    xyz = np.array(pose.get("xyz", [0.0, 0.0, 0.0]), dtype=float) + by
+    return Edit(here.file, f"{where}.xyz", _rounded(xyz))
+
+
+def _away(here: Situation, blame: Blame) -> list[str]:
+    """Axes of the world along which a body comes away from the part, the likeliest first."""
+    low, high = here.boxes[blame.name]
+    ends = [blame.end] if blame.end in here.ends else list(here.ends)
+    scores: dict[str, float] = {}
+    for axis, direction in AXES.items():
+        along = np.array(direction, dtype=float)
+        i, sign = int(np.argmax(np.abs(along))), float(along.sum())
+        best = np.inf
+        for end in ends:
+            point = here.middle(end)[i]
+            # How far it must go until it is beyond the part.
+            best = min(best, sign * point - (low[i] if sign > 0 else -high[i]))
+        scores[axis] = best
+    return sorted(scores, key=lambda axis: scores[axis])
+
+
+def removed(here: Situation, name: str) -> Change | None:
+    """The cell without a fixture, or a part that no goal names."""
+    is_part = here.is_part(name)
+    kind = "parts" if is_part else "fixtures"
+    kind = "depth_maps" if here.is_measured(name) else kind
+    carries = here.loads.get(name)
+    if carries or (is_part and any(goal.part == name for goal in here.cell_file.goals)):
+        return None
+    if name not in here.content.get(kind, {}):
+        return None
+    return Change("removed", f"take {name} out", (Edit(here.file, f"{kind}.{name}", None),))
+
+
+def shifts(here: Situation, end: str, away: list[str]) -> Iterator[Family]:
+    """The goal, or the start of the part, shifted level; away from some bodies first."""
+    if not _is_free(here, end):
+        return
+    place, kind, what = _of(here, end)
+    for order, (words, direction) in enumerate(_directions(here, end, away)):
+
+        def make(size: float, words: str = words, direction: np.ndarray = direction) -> Change:
+            text = f"shift {what} by {1e3 * size:.0f} mm {words}"
+            return Change(kind, text, (_shifted(here, place, size * direction),), size)
+
+        yield Family(kind, make, SHIFTS, rank=0.7 * order, step=STEP)
+
+
+def turns(here: Situation, end: str) -> Iterator[Family]:
+    """The goal, or the start of the part, turned about the vertical through its centre of mass."""
+    if not _is_free(here, end):
+        return
+    place, shifted, what = _of(here, end)
+    kind = shifted.replace("shifted", "turned")
+    for order, sign in enumerate((1.0, -1.0)):
+
+        def make(size: float, sign: float = sign) -> Change:
+            text = f"turn {what} by {sign * np.degrees(size):+.0f} degrees about the vertical"
+            return Change(kind, text, _turned(here, end, place, sign * size), size)
+
+        sizes = TURNS if sign > 0 else TURNS[:-1]
+        yield Family(kind, make, sizes, rank=0.7 * order, step=TURN_STEP)
+
+
+def _of(here: Situation, end: str) -> tuple[tuple[str, Any], str, str]:
+    """Place in the file, kind of a shift, and name of an end."""
+    if end == "destination":
+        return ("task", here.index), "goal shifted", f"the goal of {here.goal.part}"
+    return ("parts", here.goal.part), "part shifted", f"the start of {here.goal.part}"
+
+
+def _is_free(here: Situation, end: str) -> bool:
+    """May this end be chosen otherwise?"""
+    if end not in here.ends or here.loads.get(here.goal.part):
+        return False
+    earlier = here.cell_file.goals[: here.index]
+    return end == "destination" or all(goal.part != here.goal.part for goal in earlier)
+
+
+def _directions(here: Situation, end: str, away: list[str]) -> list[tuple[str, np.ndarray]]:
+    """Ways to shift an end level, the likeliest first."""
+    point = here.middle(end)
+    found: list[tuple[str, np.ndarray]] = []
+    inward = here.robot_at - point
+    inward[2] = 0.0
+    if np.linalg.norm(inward) > 1e-3:
+        inward /= np.linalg.norm(inward)
+    scores = {}
+    for axis in ("+x", "-x", "+y", "-y"):
+        direction = np.array(AXES[axis], dtype=float)
+        score = 0.5 * float(direction @ inward)
+        for name in away:
+            low, high = here.boxes[name]
+            nearest = point - np.clip(point, low, high)
+            nearest[2] = 0.0
+            gap = float(np.linalg.norm(nearest))
+            if gap > 1e-6:
+                score += float(direction @ nearest) / gap
+        scores[axis] = score
+    level = sorted(scores, key=lambda axis: -scores[axis])
+    found += [(f"along {axis}", np.array(AXES[axis], dtype=float)) for axis in level]
+    if not away and np.linalg.norm(inward) > 0:
+        found[:0] = [("towards the robot", inward)]
+        found[2:2] = [("away from the robot", -inward)]
+    return found
+
+
+def _turned(here: Situation, end: str, place: tuple[str, Any], angle: float) -> tuple[Edit, ...]:
+    """Edits of a pose of the file that turn it about the vertical through the centre of mass."""
+    where, pose = _pose(here, place)
+    X_WP, middle = here.ends[end], here.middle(end)
+    c, s = np.cos(angle), np.sin(angle)
+    xyz = middle + np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]]) @ (X_WP[:3, 3] - middle)
+    edits = []
+    if np.linalg.norm(xyz - X_WP[:3, 3]) > 1e-4:
+        edits.append(Edit(here.file, f"{where}.xyz", _rounded(xyz)))
+    if "quat_xyzw" in pose:
+        x, y, z, w = pose["quat_xyzw"]
+        c, s = np.cos(angle / 2), np.sin(angle / 2)
+        turned = [c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z]
+        edits.append(Edit(here.file, f"{where}.quat_xyzw", _rounded(np.array(turned))))
+    else:
+        # The yaw comes last in the file's order: a turn about the vertical adds to it.
+        roll, pitch, yaw = (float(value) for value in pose.get("rpy", [0.0, 0.0, 0.0]))
+        edits.append(Edit(here.file, f"{where}.rpy", [roll, pitch, round(yaw + angle, 6)]))
+    return tuple(edits)

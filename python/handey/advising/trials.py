@@ -1,0 +1,139 @@
+"""Does the goal plan with a change? Tried by planning with it, in memory, until the time is over.
+
+A trial is short: little effort, and a bound of its own; what is told as advice is planned once more
+with all that the options allow, in the cell as its files would then be read.
+Not guaranteed: that a change fails for good which failed here.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from handey import _core
+from handey.advising.change import Change, edited, with_edits
+from handey.advising.situation import Situation
+from handey.assembly import assemble, assemble_like
+from handey.budgets import by_slides
+from handey.cell_file import CellFile, read_document
+from handey.errors import InvalidInput
+from handey.plan_options import PlanOptions
+from handey.refusals import find_refusals
+from handey.strict_yaml import Document
+
+__all__ = ["Planner", "Trials"]
+
+LONGEST = 0.25  # Choice: of one trial [s]
+WITH_REGRASPS = 0.6  # Choice: of a trial in which the part may be put down on the way [s]
+
+
+class Planner(Protocol):
+    """Plans a cell: `handey.planner.plan`."""
+
+    def __call__(self, cell_file: CellFile, options: PlanOptions) -> Any:
+        """Its result, with a plan or without."""
+
+
+def little(options: PlanOptions, regrasps: bool) -> PlanOptions:
+    """Options of a trial: what needs much searching is given up."""
+    most = min(options.regrasp.most_regrasps, 2) if regrasps else 0
+    regrasp = replace(
+        options.regrasp,
+        most_regrasps=most,
+        samples=options.regrasp.samples[:1],
+        sequences=(10,),
+    )
+    return replace(
+        options,
+        advice=False,
+        deadline=None,
+        direct=by_slides(options.direct),
+        denser=(),
+        sampling_rounds=options.sampling_rounds[:1],
+        most_by_arm=0,
+        thorough=False,
+        regrasp=regrasp,
+    )
+
+
+@dataclass
+class Trials:
+    """Tries changes of one cell.
+
+    Attributes:
+        here: the goal that failed.
+        options: of the plan that failed.
+        planner: plans a changed cell.
+        end: on the clock of `time.perf_counter`; no trial goes on after it.
+        count: trials so far.
+    """
+
+    here: Situation
+    options: PlanOptions
+    planner: Planner
+    end: float
+    count: int = 0
+
+    @property
+    def left(self) -> float:
+        """Until the end [s]."""
+        return self.end - time.perf_counter()
+
+    def plans(self, change: Change) -> bool:
+        """Does the goal plan with the change, with little effort?"""
+        cell = self._changed(change)
+        if cell is None:
+            return False
+        longest = WITH_REGRASPS if change.regrasps else LONGEST
+        options = replace(
+            little(self.options, change.regrasps), deadline=max(1e-3, min(longest, self.left))
+        )
+        self.count += 1
+        return self.planner(cell, options).plan is not None
+
+    def holds(self, change: Change) -> bool:
+        """Does it plan with all effort, in the cell as its files would be read with the change?"""
+        entry = self.here.cell_file.entry
+        try:
+            content = with_edits(entry.document.value, self._of_cell(change))
+            read = read_document(Document(entry.document.file, entry.document.folder, content))
+            cell = assemble(read, change.robot)
+            if len(cell.warnings) > len(self.here.cell_file.warnings):
+                return False  # something would not stand
+            cut = self._cut(content, len(entry.document.value["task"]))
+            read = read_document(Document(entry.document.file, entry.document.folder, cut))
+        except InvalidInput:
+            return False
+        left = self.left
+        if left <= 0:
+            return False
+        options = replace(self.options, advice=False, deadline=left)
+        return self.planner(replace(cell, task=read.task, entry=read), options).plan is not None
+
+    def _of_cell(self, change: Change) -> list[Any]:
+        return [edit for edit in change.edits if edit.file == self.here.file]
+
+    def _changed(self, change: Change) -> CellFile | None:
+        """The cell with a change, as far as the failed goal; None where that cannot be."""
+        document = self.here.cell_file.entry.document
+        content = with_edits(document.value, self._of_cell(change))
+        content = edited(self._cut(content, len(document.value["task"])), "depth_maps", None)
+        try:
+            entry = read_document(Document(document.file, document.folder, content))
+            cell = assemble_like(entry, self.here.cell_file, change.robot)
+        except InvalidInput:
+            return None
+        model = _core.make_collision_model(cell.cell)
+        return None if find_refusals(entry, cell.cell, model) else cell
+
+    def _cut(self, content: dict[str, Any], goals: int) -> dict[str, Any]:
+        """The task up to the failed goal, where the order is given."""
+        task = content["task"]
+        if content.get("order", "given") == "any":
+            return content
+        # Goals that were put in come before it.
+        last = self.here.index + len(task) - goals
+        if last == len(task) - 1:
+            return content
+        return {**content, "task": task[: last + 1], "finish": "anywhere"}
