@@ -60,7 +60,11 @@ class StandInReport:
 
     def __post_init__(self):
         tried = types.SimpleNamespace(grasp="faces 1/2", stage="approach", reason="meets a wall")
-        self.goals = [types.SimpleNamespace(goal=0, grasp="faces 0/3", attempts=[tried], aside=[])]
+        self.goals = [
+            types.SimpleNamespace(
+                goal=0, grasp="faces 0/3", attempts=[tried], aside=[], advice=None
+            )
+        ]
 
     def as_dict(self):
         motions = [motion.as_dict() for motion in self.gross_motions]

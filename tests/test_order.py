@@ -187,7 +187,8 @@ def test_a_goal_that_no_order_reaches_ends_the_search_soon(tmp_path) -> None:
 
     planner._plan_goal = counted
     try:
-        result = handey.plan(handey.load_cell(write(tmp_path, parts, task, order="any")))
+        path = write(tmp_path, parts, task, order="any")
+        result = handey.plan(path, PlanOptions(advice=False))
     finally:
         planner._plan_goal = plan_goal
     assert result.plan is None

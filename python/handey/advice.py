@@ -17,10 +17,12 @@ class Edit:
     """One value to be set in a file.
 
     Attributes:
-        file: path of the cell or robot file, as it was given.
+        file: path of the cell or robot file, as it was given, or of the robot's URDF; empty for a
+            cell made in a program.
         place: dotted path of the value: "fixtures.wall.pose.xyz", "task[0].at.xyz",
-            "gripper.opening".
-        value: the new value, of JSON types.
+            "gripper.opening"; mappings on the way are made where they are missing. In a URDF an
+            XPath from the root: "joint[@name='left_finger_joint']/limit/@upper".
+        value: the new value, of JSON types; None takes the entry out.
     """
 
     file: str

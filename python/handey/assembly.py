@@ -63,9 +63,7 @@ def assemble(entry: CellEntry, robot: _core.Robot | None = None) -> CellFile:
     return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry)
 
 
-def assemble_like(
-    entry: CellEntry, like: CellFile, robot: _core.Robot | None = None
-) -> CellFile:
+def assemble_like(entry: CellEntry, like: CellFile, robot: _core.Robot | None = None) -> CellFile:
     """The cell of an entry that differs from another's in little; nothing is refused, quickly.
 
     Args:

@@ -108,6 +108,7 @@ def parser() -> argparse.ArgumentParser:
         "--report", metavar="JSON", help="write how planning went, with a plan or without"
     )
     _add_planning(plan)
+    _add_advice(plan)
     plan.set_defaults(run=plan_command)
 
     check = commands.add_parser(
@@ -160,6 +161,7 @@ def parser() -> argparse.ArgumentParser:
     )
     view.add_argument("-o", "--output", metavar="HTML", help="page (default: name of CELL + .html)")
     _add_planning(view)
+    _add_advice(view)
     view.set_defaults(run=view_command, json=False)
 
     inspect = commands.add_parser(
@@ -198,6 +200,14 @@ def _add_planning(command: argparse.ArgumentParser) -> None:
         "--seed", type=_seed, default=0, metavar="N", help="of every random choice (default 0)"
     )
     command.add_argument("--deadline", type=_deadline, metavar="S", help="give up after S seconds")
+
+
+def _add_advice(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--no-advice",
+        action="store_true",
+        help="where no plan is found, do not look for the nearest change with which there is one",
+    )
 
 
 def _angle(text: str) -> float:

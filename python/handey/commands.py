@@ -127,7 +127,7 @@ def plan_and_check(
         left -= min(TIME_TO_TELL, 0.1 * left)
         if left <= 0:
             raise DeadlinePassedError
-    wanted = planner.PlanOptions(seed=options.seed, deadline=left)
+    wanted = planner.PlanOptions(seed=options.seed, deadline=left, advice=not options.no_advice)
     result = planner.plan(cell, wanted, cancel=cancel, progress=line.show if line.shown else None)
     checked = None
     if result.plan is not None and not cancel.cancelled:

@@ -79,7 +79,7 @@ def _plan(
     left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
     if left is not None and left <= 0:
         raise DeadlinePassedError
-    wanted = planner.PlanOptions(seed=options.seed, deadline=left)
+    wanted = planner.PlanOptions(seed=options.seed, deadline=left, advice=False)
     result = within(left, lambda: planner.plan(cell, wanted))
     return result.plan, result
 

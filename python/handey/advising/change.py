@@ -41,6 +41,9 @@ COSTS = {
 }
 
 
+MOVED_ALONG = 4.0  # Choice: what each thing costs that is moved along with another
+
+
 @dataclass(frozen=True)
 class Change:
     """Edits of the files of a cell, that belong together.
@@ -52,6 +55,7 @@ class Change:
         size: in metres, radians or the value's own unit.
         robot: of the cell, where the edits change its files.
         regrasps: the part may have to be put down on the way.
+        load: how many things are moved along.
     """
 
     kind: str
@@ -60,12 +64,13 @@ class Change:
     size: float = 0.0
     robot: _core.Robot | None = None
     regrasps: bool = False
+    load: int = 0
 
     @property
     def cost(self) -> float:
         """On the scale of all changes."""
         least, slope = COSTS[self.kind]
-        return least + slope * abs(self.size)
+        return least + slope * abs(self.size) + MOVED_ALONG * self.load
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
 WAVE = 4.0  # Choice: as much less plausible is each further size of a family
+PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
 NAMED = 2.0  # weight of a body that a reason names
 MOTIONS = ("approach", "departure", "deposit", "withdrawal", "transit", "transfer", "home")
 
@@ -98,19 +99,17 @@ class _Search:
 
     def run(self) -> None:
         """Try until the time is over."""
-        tries = sorted(self._tries(), key=lambda it: it[0])
+        waiting = list(self._tries())
         failed: dict[int, list[float]] = {}
-        done: set[int] = set()
-        for _, family, size in tries:
-            if self.trials.left <= 0:
-                return
-            if id(family) in done:
-                continue
+        while waiting and self.trials.left > 0:
+            nearest = min(waiting, key=self._rank)
+            waiting.remove(nearest)
+            _, family, size = nearest
             change = family.make(size)
-            if change is None or not self._is_worth(change) or self._is_vain(family, failed):
+            if change is None or not self._is_worth(change) or self._is_vain(family):
                 continue
             if self.trials.plans(change):
-                done.add(id(family))
+                waiting = [it for it in waiting if it[1] is not family]
                 self.found.append(change)
                 self._shrink(family, size, failed.get(id(family), []))
             else:
@@ -124,7 +123,12 @@ class _Search:
         best = min((found.cost for found in self.found), default=float("inf"))
         return change.cost < WORTH * best
 
-    def _is_vain(self, family: Family, failed: dict[int, list[float]]) -> bool:
+    def _rank(self, it: tuple[float, Family, float]) -> float:
+        rank, family, _ = it
+        # A body without which it plans is the likeliest to be moved.
+        return rank - (PROVED if self.without.get(family.body) else 0.0)
+
+    def _is_vain(self, family: Family) -> bool:
         """Does it not even plan without the body that the family moves?"""
         if not family.body:
             return False
@@ -148,6 +152,12 @@ class _Search:
                 size = middle
             else:
                 low = middle
+
+    def _missing(self, end: str) -> float | None:
+        """How far an end is out of reach, if that is why it fails [m]."""
+        cause = self.here.report.cause
+        is_far = cause is not None and cause.kind == "out_of_reach" and cause.end == end
+        return cause.by if cause is not None and is_far else None
 
     def _tries(self) -> Iterator[tuple[float, Family, float]]:
         """All that may be tried, with how implausible it is."""
@@ -190,7 +200,7 @@ class _Search:
                 for name in away
                 if all(p != here.goal.part for p, _ in here.loads.get(name, []))
             ]
-            for family in poses.shifts(here, end, away):
+            for family in poses.shifts(here, end, away, self._missing(end)):
                 yield family, ranks.get(f"shift {end}", LATE)
             for family in poses.turns(here, end):
                 yield family, ranks.get(f"turn {end}", LATE)

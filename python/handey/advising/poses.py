@@ -22,8 +22,10 @@ __all__ = ["moved_bodies", "removed", "shifts", "turns"]
 # Choice: sizes in the order to try them: likely ones first [m, rad].
 MOVES = (0.06, 0.15, 0.02, 0.3)
 SHIFTS = (0.05, 0.02, 0.12, 0.25)
+BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
 TURNS = tuple(np.radians((30.0, 90.0, 60.0, 180.0)))
 STEP, TURN_STEP = 0.005, float(np.radians(5.0))
+ALIKE = 0.95  # Choice: cosine between directions of which one is enough
 AXES = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0, 1, 0), "-y": (0, -1, 0), "+z": (0, 0, 1)}
 
 
@@ -72,7 +74,7 @@ def _mover(here: Situation, name: str, axis: str) -> Callable[[float], Change]:
         edits = [_shifted(here, place, by) for place in places]
         words = f"move {name}{load} by {1e3 * size:.0f} mm along {axis}"
         kind = "part moved" if is_part else "fixture moved"
-        return Change(kind, words, tuple(edits), size)
+        return Change(kind, words, tuple(edits), size, load=len(edits) - 1)
 
     return make
 
@@ -123,18 +125,30 @@ def removed(here: Situation, name: str) -> Change | None:
     return Change("removed", f"take {name} out", (Edit(here.file, f"{kind}.{name}", None),))
 
 
-def shifts(here: Situation, end: str, away: list[str]) -> Iterator[Family]:
-    """The goal, or the start of the part, shifted level; away from some bodies first."""
+def shifts(here: Situation, end: str, away: list[str], least: float | None) -> Iterator[Family]:
+    """The goal, or the start of the part, shifted level; away from some bodies first.
+
+    Args:
+        here: the goal that failed.
+        end: which of both.
+        away: names of bodies.
+        least: less is not enough, as far as known [m].
+    """
     if not _is_free(here, end):
         return
     place, kind, what = _of(here, end)
+    sizes: tuple[float, ...] = SHIFTS
+    gap = 0.7 if least is None else 2.0
+    if least is not None:
+        first = STEP * np.ceil((least + 0.5 * STEP) / STEP)
+        sizes = tuple(round(float(first) + more, 4) for more in BEYOND)
     for order, (words, direction) in enumerate(_directions(here, end, away)):
 
         def make(size: float, words: str = words, direction: np.ndarray = direction) -> Change:
             text = f"shift {what} by {1e3 * size:.0f} mm {words}"
             return Change(kind, text, (_shifted(here, place, size * direction),), size)
 
-        yield Family(kind, make, SHIFTS, rank=0.7 * order, step=STEP)
+        yield Family(kind, make, sizes, rank=gap * order, step=STEP)
 
 
 def turns(here: Situation, end: str) -> Iterator[Family]:
@@ -191,8 +205,8 @@ def _directions(here: Situation, end: str, away: list[str]) -> list[tuple[str, n
     level = sorted(scores, key=lambda axis: -scores[axis])
     found += [(f"along {axis}", np.array(AXES[axis], dtype=float)) for axis in level]
     if not away and np.linalg.norm(inward) > 0:
-        found[:0] = [("towards the robot", inward)]
-        found[2:2] = [("away from the robot", -inward)]
+        found = [it for it in found if abs(float(it[1] @ inward)) < ALIKE]
+        found = [("towards the robot", inward), *found, ("away from the robot", -inward)]
     return found
 
 

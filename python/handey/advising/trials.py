@@ -53,6 +53,7 @@ def little(options: PlanOptions, regrasps: bool) -> PlanOptions:
         sampling_rounds=options.sampling_rounds[:1],
         most_by_arm=0,
         thorough=False,
+        prove=False,
         regrasp=regrasp,
     )
 
