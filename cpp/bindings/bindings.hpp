@@ -21,6 +21,7 @@ void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
 void bind_legality(pybind11::module_& m);  // part of grasp
 void bind_regrasp(pybind11::module_& m);      // part of grasp
+void bind_proofs(pybind11::module_& m);       // parts of grasp and cspace
 void bind_grasp_plane(pybind11::module_& m);  // part of approach
 void bind_approach(pybind11::module_& m);
 void bind_departure(pybind11::module_& m);  // part of approach

@@ -40,4 +40,5 @@ PYBIND11_MODULE(_core, m) {
   bind_approach(m);
   bind_cspace(m);
   bind_motion(m);
+  bind_proofs(m);
 }

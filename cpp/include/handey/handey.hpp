@@ -38,6 +38,7 @@
 #include "handey/grasp/compatibility.hpp"
 #include "handey/grasp/fallen.hpp"
 #include "handey/grasp/features.hpp"
+#include "handey/grasp/hand_reach.hpp"
 #include "handey/grasp/legality.hpp"
 #include "handey/grasp/part_grasps.hpp"
 #include "handey/grasp/ranking.hpp"

@@ -200,6 +200,37 @@ InverseResult SphericalWristSolver::solve(const Pose& X_RH,
   return std::move(result);
 }
 
+WristReach SphericalWristSolver::wrist_reach() const {
+  const Eigen::Vector3d w1 = directions_.col(0), w2 = directions_.col(1), w3 = directions_.col(2);
+  const Eigen::Vector3d p1 = points_.col(0), p2 = points_.col(1), p3 = points_.col(2);
+  // The point of axis 2 nearest to axis 1 goes round in a circle.
+  const Eigen::Vector3d w2_across = across(w1, w2);
+  const double along = across(w1, p1 - p2).dot(w2_across) / w2_across.squaredNorm();
+  const Eigen::Vector3d shoulder = p2 + along * w2;
+  WristReach reach;
+  reach.axis = w1;
+  reach.centre = p1 + w1 * w1.dot(shoulder - p1);
+  reach.radius = across(w1, shoulder - p1).norm();
+  // |R3(q3) u + m| is greatest where a cos q3 + b sin q3 is.
+  const Eigen::Vector3d u = across(w3, wrist_centre_ - p3), m = across(w2, p3 - p2);
+  const double a = m.dot(u), b = m.dot(w3.cross(u));
+  const JointLimit& limit = limits_[2];
+  double most = std::hypot(a, b);
+  if (std::isfinite(limit.lower) && std::isfinite(limit.upper)) {
+    const double crest = std::atan2(b, a);
+    const double turn = crest + 2.0 * kPi * std::ceil((limit.lower - crest) / (2.0 * kPi));
+    if (turn > limit.upper) {
+      most = std::max(a * std::cos(limit.lower) + b * std::sin(limit.lower),
+                      a * std::cos(limit.upper) + b * std::sin(limit.upper));
+    }
+  }
+  const double across_axis =
+      std::sqrt(std::max(0.0, u.squaredNorm() + m.squaredNorm() + 2.0 * most));
+  reach.farthest = std::hypot(across_axis, w2.dot(wrist_centre_ - shoulder));
+  reach.p_HC = X_HR_zero_ * wrist_centre_;
+  return reach;
+}
+
 void SphericalWristSolver::solve_shoulder(const Eigen::Vector3d& centre, Search& search) const {
   const Eigen::Vector3d w1 = directions_.col(0), w2 = directions_.col(1), p1 = points_.col(0);
   const Eigen::Vector3d v = centre - p1;

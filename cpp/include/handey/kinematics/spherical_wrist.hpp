@@ -39,6 +39,16 @@ struct InverseResult {
                         ///< its limit"
 };
 
+/// The wrist centre stays within `farthest` of a circle about axis 1, whatever the joints do within
+/// their limits. Necessary, not sufficient.
+struct WristReach {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the circle, in R [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< unit, of joint 1, in R
+  double radius = 0.0;                               ///< of the circle [m]
+  double farthest = 0.0;                             ///< of the wrist centre from it [m]
+  Eigen::Vector3d p_HC = Eigen::Vector3d::Zero();    ///< the wrist centre in the grasp frame [m]
+};
+
 class SphericalWristSolver {
  public:
   /// @throws InvalidInput (E_KINEMATICS) if the arm is not of this kind, saying which condition
@@ -49,6 +59,9 @@ class SphericalWristSolver {
   /// joint 4 takes `reference`'s value (0 without one) and joint 6 follows. With a reference,
   /// continuous joints take the turn nearest to it; without one, the turn in (-pi, pi].
   InverseResult solve(const Pose& X_RH, const Eigen::VectorXd* reference = nullptr) const;
+
+  /// How far the wrist centre comes, and where in the hand it is.
+  WristReach wrist_reach() const;
 
   /// Does the arm belong to this kind?
   static bool is_supported(const Robot& robot);
