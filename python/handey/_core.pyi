@@ -141,6 +141,7 @@ __all__: list[str] = [
     "TriangleMesh",
     "WristRange",
     "arm_plane",
+    "beyond_reach",
     "body_poses",
     "boundary_distance",
     "bump_lines",
@@ -4562,6 +4563,25 @@ def arm_plane(robot: Robot) -> tuple[ArmPlane | None, str]:
 
     Returns:
         The plane and "", or None and why there is none.
+    """
+
+def beyond_reach(
+    solver: SphericalWristSolver, gripper: Gripper, part: Body, X_RP: typing.Any
+) -> float:
+    """
+    By how much a part is farther away than the arm reaches, whatever the grasp.
+
+    Args:
+        solver: SphericalWristSolver of the robot.
+        gripper: of the robot.
+        part: Body; its own pose does not count.
+        X_RP: the part in the robot frame, (4, 4).
+
+    Returns:
+        At least so much [m]; zero or less where it is not proved to be out of reach.
+
+    Raises:
+        InvalidInput: for a pose that is not rigid, a part without shapes.
     """
 
 def body_poses(robot: Robot, configuration: Configuration) -> numpy.typing.NDArray[numpy.float64]:

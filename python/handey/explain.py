@@ -5,6 +5,8 @@ Asked for once, when planning has ended: what was tried on the way is told of th
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from handey.reasons import STAGES, Reason, Stage
 from handey.report import GoalReport, Report
 
@@ -21,8 +23,9 @@ def explain(report: Report) -> None:
             stages, goal.tried = goal.looked.stages(), goal.looked.poses()
         stages[0].reasons += goal.refusals
         goal.stages = stages
-        if goal.status in ("failed", "stopped"):
-            goal.cause = _cause(goal)
+        if goal.status in ("failed", "stopped") and goal.cause is None:
+            cause = _cause(goal)
+            goal.cause = replace(cause, proved=True) if cause and goal.proof else cause
         goal.refusals, goal.looked = [], None
 
 

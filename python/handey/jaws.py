@@ -11,19 +11,22 @@ import numpy as np
 
 from handey import _core
 
-__all__ = ["is_wider_than_jaws"]
+__all__ = ["wider_than_jaws"]
 
 
-def is_wider_than_jaws(part: _core.Body, gripper: _core.Gripper) -> bool:
-    """True if the part is convex and holds a ball wider than the jaws open."""
+def wider_than_jaws(part: _core.Body, gripper: _core.Gripper) -> float:
+    """By how much a ball that a convex part holds is wider than the jaws open [m].
+
+    Zero or less where it is not proved that the part is too wide.
+    """
     if len(part.shapes) != 1:
-        return False
+        return 0.0
     mesh = _core.tessellate(part.shapes[0], outer=False)
     if not _core.is_convex(mesh):
-        return False
+        return 0.0
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     centre = _core.inspect_surface(mesh).centroid
     radius = np.min(np.sum((corners[:, 0] - centre) * normals, axis=1))
-    return bool(2 * radius > gripper.max_opening)
+    return float(2 * radius - gripper.max_opening)

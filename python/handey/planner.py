@@ -24,7 +24,6 @@ from handey.errors import Fault, Interrupted, InvalidInput, Stopped
 from handey.explain import explain
 from handey.grasps import Grasps
 from handey.in_the_way import unstable, would_fall
-from handey.jaws import is_wider_than_jaws
 from handey.moves import Hands
 from handey.order import plan_order
 from handey.pick_and_place import (
@@ -35,6 +34,7 @@ from handey.pick_and_place import (
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan, Step
 from handey.plan_options import PlanOptions
+from handey.proofs import Proofs, Proved
 from handey.reasons import Reason
 from handey.regrasp import Regrasp
 from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
@@ -118,9 +118,9 @@ def plan(
     if interrupt is not None:
         raise Interrupted(report) from interrupt
     if not reached:
-        failed = [goal for goal in report.goals if goal.status == "failed"]
-        exhausted = bool(failed) and all(goal.exhausted for goal in failed)
-        report.verdict = "infeasible" if exhausted and not report.stopped else "unknown"
+        # Every goal must be reached: one that cannot be is enough.
+        proved = any(goal.exhausted for goal in report.goals)
+        report.verdict = "infeasible" if proved else "unknown"
         if options.advice and not report.stopped:
             _advise(cell_file, options, clock, report, cancel)
         return PlanResult(None, report)
@@ -183,7 +183,17 @@ def _reach_goals(
         clock,
         _plan_goal,
     )
-    moves = plan_order(cell_file, options, hands, report)
+    try:
+        if options.prove:
+            with clock("proofs"):
+                proved = Proofs(cell_file, model, solver).at_once()
+            if proved is not None:
+                _tell_grasps(cell_file, options, hands, report.goals[proved.goal])
+                raise proved
+        moves = plan_order(cell_file, options, hands, report)
+    except Proved as end:
+        report.goals[end.goal].prove(end.proof.text, end.proof.cause)
+        return False
     for move in moves or []:
         _take_over(state, move.target, move.goal, move.carry, clock, report)
     return moves is not None
@@ -210,7 +220,6 @@ def _arm_table(robot: _core.Robot) -> _core.ArmTable | None:
 
 def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Carry | None:
     """Steps 1 to 7 for one goal: the first grasp that can be carried through, or several."""
-    scene = work.scene
     refused = _unstable(work)
     if refused is not None:
         report.fail([refused])
@@ -230,9 +239,20 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     if carry is not None:
         return planned(report, regrasp.words, carry) if carry.regrasps else carry
     report.status = "failed"
-    part = scene.cell.parts[scene.part]
-    report.exhausted = is_wider_than_jaws(part, scene.cell.robot.gripper)
     return None
+
+
+def _tell_grasps(
+    cell_file: CellFile, options: PlanOptions, hands: Hands, report: GoalReport
+) -> None:
+    """A quick look at the grasps of a goal that is proved infeasible: where they fall."""
+    goal, cell = cell_file.goals[report.goal], cell_file.cell
+    part = cell.part_index(goal.part)
+    X_WP_goal = goal.X_WP if isinstance(goal, PlaceAt) else cell.parts[part].X_WB
+    scene = _core.GraspScene(model=hands.model, cell=cell, part=part, X_WP_goal=X_WP_goal)
+    work = Workspace(hands.model, scene, hands.solver, cell.start, None, hands.clock)
+    for _ in Grasps(work, replace(options, denser=()), report).first():
+        return
 
 
 def _unstable(work: Workspace) -> Reason | None:

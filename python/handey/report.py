@@ -149,7 +149,7 @@ class GoalReport:
         grasp: the grasp chosen, in words; empty without one.
         jaws: distance between the pads [m] as the hand comes ("open") and on the part ("closed");
             empty without a grasp.
-        exhausted: it is proved that no grasp is left: the part is wider than the jaws open.
+        exhausted: it is proved that the goal cannot be reached: `proof` says why.
         aside: names of parts moved aside for it, in order.
         stages: the funnel, stage by stage, with typed reasons.
         cause: the reason that explains the failure best; None without a failure.
@@ -189,6 +189,11 @@ class GoalReport:
         """It failed before any grasp was looked at."""
         self.funnel, self.attempts, self.status = {}, [], "failed"
         self.reasons, self.refusals, self.looked = [r.text for r in reasons], list(reasons), None
+
+    def prove(self, text: str, cause: Reason | None) -> None:
+        """It is certain that it cannot be reached."""
+        self.status, self.proof, self.exhausted, self.cause = "failed", text, True, cause
+        self.reasons.insert(0, text)
 
     def note(self, reason: Reason) -> None:
         """Add a reason, once."""
@@ -241,8 +246,8 @@ class Report:
     """How the planning of a task went.
 
     Attributes:
-        verdict: "plan"; "infeasible" where it is proved that there is no grasp; "unknown" where
-            all that was tried failed.
+        verdict: "plan"; "infeasible" where it is proved that a goal cannot be reached, at the
+            resolution that its `proof` tells; "unknown" where all that was tried failed.
         goals: one report per goal of the task.
         gross_motions: of the plan, in the order of its steps.
         local_motions: the same of the motions near obstacles.

@@ -1,0 +1,105 @@
+"""Proofs that there is no plan: of each kind, and never where there is one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+import handey
+
+ROOT = Path(__file__).resolve().parent.parent
+CELLS = ROOT / "models" / "cells"
+ROBOT = ROOT / "models" / "robots" / "puma560" / "robot.yaml"
+TABLE = {"box": [3.0, 1.6, 0.05], "pose": {"xyz": [1.2, 0, -0.025]}, "support": True}
+
+
+def cell(folder: Path, **changes: object) -> Path:
+    """A block on a table that goes from one side to the other."""
+    path = folder / "cell.yaml"
+    path.write_text(
+        yaml.safe_dump(
+            {
+                "handey_cell": 1,
+                "name": "cell",
+                "robot": {"file": str(ROBOT)},
+                "fixtures": {"table": TABLE},
+                "parts": {"block": block(0.5, 0.2)},
+                "task": [{"place": "block", "at": {"xyz": [0.5, -0.2, 0.025]}}],
+                **changes,
+            }
+        )
+    )
+    return path
+
+
+def block(x: float, y: float, size: tuple[float, float, float] = (0.04, 0.06, 0.05)) -> dict:
+    return {"box": list(size), "pose": {"xyz": [x, y, size[2] / 2]}}
+
+
+def failed(path: Path, goal: int = 0) -> handey.PlanResult:
+    result = handey.plan(handey.load_cell(path))
+    assert result.plan is None
+    assert result.report.goals[goal].status == "failed"
+    return result
+
+
+def test_a_part_wider_than_the_jaws_is_proved_with_both_widths() -> None:
+    report = failed(CELLS / "impossible_too_wide.yaml").report
+    goal = report.goals[0]
+    assert report.verdict == "infeasible"
+    assert "ball of 120.0 mm" in goal.proof and "100.0 mm" in goal.proof
+    assert goal.cause is not None and goal.cause.kind == "too_wide" and goal.cause.proved
+
+
+@pytest.mark.parametrize("end", ["origin", "destination"])
+def test_what_is_out_of_reach_is_proved_with_end_and_distance(end: str, tmp_path: Path) -> None:
+    far, near = [1.6, 0.0, 0.025], [0.5, 0.2, 0.025]
+    start, goal = (far, near) if end == "origin" else (near, far)
+    parts = {"block": {"box": [0.04, 0.06, 0.05], "pose": {"xyz": start}}}
+    path = cell(tmp_path, parts=parts, task=[{"place": "block", "at": {"xyz": goal}}])
+    report = failed(path).report
+    assert report.verdict == "infeasible"
+    cause = report.goals[0].cause
+    assert cause is not None and (cause.kind, cause.end, cause.proved) == (
+        "out_of_reach",
+        end,
+        True,
+    )
+    assert cause.by is not None and 0.3 < cause.by < 0.8
+    assert end in report.goals[0].proof
+    # The distance is along the line to the shoulder, which is higher: nearer by more than that,
+    # there is no such proof any more.
+    far[0] -= 1.5 * cause.by
+    parts = {"block": {"box": [0.04, 0.06, 0.05], "pose": {"xyz": start}}}
+    path = cell(tmp_path, parts=parts, task=[{"place": "block", "at": {"xyz": goal}}])
+    nearer = handey.plan(handey.load_cell(path)).report.goals[0]
+    assert "beyond the arm's reach" not in nearer.proof
+
+
+def test_one_goal_that_is_infeasible_makes_the_task_infeasible(tmp_path: Path) -> None:
+    parts = {"near": block(0.5, 0.2), "block": block(0.4, 0.35)}
+    task = [
+        {"place": "near", "at": {"xyz": [0.5, -0.2, 0.025]}},
+        {"place": "block", "at": {"xyz": [1.7, 0.0, 0.025]}},
+    ]
+    for order in ("given", "any"):
+        result = failed(cell(tmp_path, parts=parts, task=task, order=order), goal=1)
+        assert result.report.verdict == "infeasible"
+        assert result.report.goals[0].status == "not tried"
+
+
+def test_a_far_part_that_need_not_move_proves_nothing(tmp_path: Path) -> None:
+    parts = {"block": block(0.5, 0.2), "far": block(1.7, 0.0)}
+    task = [
+        {"place": "far", "at": {"xyz": [1.7, 0.0, 0.025]}},
+        {"place": "block", "at": {"xyz": [0.5, -0.2, 0.025]}},
+    ]
+    assert handey.plan(handey.load_cell(cell(tmp_path, parts=parts, task=task))).plan is not None
+
+
+def test_proofs_can_be_left_out(tmp_path: Path) -> None:
+    path = CELLS / "impossible_out_of_reach.yaml"
+    report = handey.plan(handey.load_cell(path), handey.PlanOptions(prove=False)).report
+    assert (report.verdict, report.goals[0].proof) == ("unknown", "")
