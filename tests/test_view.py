@@ -22,8 +22,14 @@ from browsing import (
 )
 from hand_made import ROOT, pick_and_place, write_cell
 
+from handey.cell_file import load_cell
+from handey.check import CheckReport, check
+from handey.check.cell import read_cell
+from handey.check.plan_data import load_json, read_plan
 from handey.errors import InvalidInput
 from handey.view import write_page
+from handey.view.clearance import clearance_along
+from handey.view.grasp_plane import HandPose, plane_picture
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +142,103 @@ def test_the_page_shows_a_cell_without_a_plan(browser, tmp_path, name):
     assert not browser.find_element("id", "bar").is_displayed()
     assert colours(browser) > 60
     assert severe(browser) == []
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory):
+    """The demonstration, planned."""
+    from handey.cli import main
+
+    folder, cell = tmp_path_factory.mktemp("demo"), ROOT / "models" / "cells" / "demo.yaml"
+    assert main(["plan", str(cell), "-o", str(folder / "plan.json"), "--quiet"]) == 0
+    output = ["-o", str(folder / "page.html"), "--quiet"]
+    assert main(["view", str(cell), str(folder / "plan.json"), *output]) == 0
+    return folder
+
+
+def curve_of(cell_file, plan_file):
+    cell = read_cell(cell_file)
+    plan = read_plan(load_json(plan_file)[0], cell, CheckReport())
+    return clearance_along(cell, plan)
+
+
+def test_the_least_of_the_curve_is_that_of_the_check(demo):
+    cell = ROOT / "models" / "cells" / "demo.yaml"
+    curve, checked = curve_of(cell, demo / "plan.json"), check(cell, demo / "plan.json")
+    k = int(np.argmin(curve.distance))
+    # The check proves a bound of 0.9 of what there is; the curve is sampled.
+    assert checked.least_clearance <= curve.distance[k] + 1e-5
+    assert curve.distance[k] <= checked.least_clearance / 0.9 + 2e-4
+    assert curve.pairs[curve.between[k]] == checked.least_clearance_between
+    assert curve.time[k] == pytest.approx(checked.least_clearance_time, abs=0.05)
+
+
+def test_contacts_of_the_work_do_not_count(made):
+    curve = curve_of(made[0] / "cell.yaml", made[1])
+    assert curve.distance.min() > 1e-3  # though fingers close, and the block leaves the table
+    pairs = {frozenset(pair) for pair in curve.pairs}
+    assert frozenset(("block", "left_finger")) in pairs  # as the hand comes it counts
+    assert frozenset(("block", "table")) not in pairs  # from which it is lifted at once
+    assert np.all(np.diff(curve.time) >= 0) and curve.distance.max() <= 0.1
+
+
+def test_a_page_is_small_enough_to_be_sent(demo):
+    assert (demo / "page.html").stat().st_size < 2_000_000
+
+
+@needs_browser
+def test_the_curve_leads_to_the_least_clearance(browser, demo):
+    screen(browser, 1280, 800)
+    try:
+        opened(browser, demo / "page.html")
+        least = words(browser, "least")
+        assert re.fullmatch(r"Least \d+\.\d\d? mm: \S+, \S+", least)
+        browser.find_element("id", "least").click()
+        time.sleep(0.5)
+        assert words(browser, "near") == least.replace("Least", "Clearance")
+        marked = [e.text for e in browser.find_elements("css selector", "#labels .marked")]
+        assert 0 < len(marked) <= 2 and all(name in least for name in marked)
+        pieces = "#told, #head > *, #tools button, #joints, #bar, #clearance, #line, #controls > *"
+        assert overlapping(browser, pieces) == []
+        assert severe(browser) == []
+    finally:
+        no_screen(browser)
+
+
+@needs_browser
+def test_the_hand_follows_the_time_line_in_the_grasp_plane(browser, demo):
+    screen(browser, 1280, 800)
+    try:
+        opened(browser, demo / "page.html")
+        plan = json.loads((demo / "plan.json").read_text())
+        step = next(step for step in plan["steps"] if step["action"] == "approach")
+        hand = browser.find_element("css selector", ".plane .hand")
+        places = []
+        for t in np.linspace(step["time"][0], step["time"][-1], 4):
+            seek(browser, float(t))
+            places.append(hand.get_attribute("transform"))
+        assert len(set(places)) == 4
+        # At the grasp the finger grasp point is on the target, in the middle of the picture.
+        assert places[-1].rstrip(")").split(",")[-2:] == ["180", "180"]
+        kinds = [e.get_attribute("class") for e in hand.find_elements("css selector", "path")]
+        assert kinds.count("piece") >= 2 and sum(kind.startswith("bump") for kind in kinds) >= 8
+        assert severe(browser) == []
+    finally:
+        no_screen(browser)
+
+
+def test_bump_lines_touch_where_the_hand_is_near():
+    cell = load_cell(ROOT / "models" / "cells" / "demo.yaml").cell
+    part = cell.part_index("bracket")
+    above = np.diag([1.0, -1.0, -1.0, 1.0])
+    above[:3, 3] = cell.parts[part].X_WB[:3, 3] + [0, 0, 0.30]
+    low = above.copy()
+    low[2, 3] = 0.005
+    touching = {
+        name: plane_picture(cell, part, 0.03, [HandPose(0.0, X)]).touching
+        for name, X in (("above", above), ("low", low))
+    }
+    assert touching["above"] == 0 < touching["low"]
 
 
 def test_the_scene_is_plain_json(made):

@@ -63,10 +63,7 @@ class Collisions:
             if samples is None:
                 return
             clearance = Clearance()
-            jobs = (
-                self._against_fixtures(samples) + self._against_parts(samples) + self._held(samples)
-            )
-            hits = self.sweep.run(samples, jobs, clearance)
+            hits = self.sweep.run(samples, self.jobs(samples), clearance)
             own = Clearance(share=0.7)
             self_hits = self.sweep.run(samples, self._self(samples), own)
             self._note(hits, "collision")
@@ -81,6 +78,10 @@ class Collisions:
                 self.report.least_self_clearance = 0.0 if self_hits else own.least
         self.report.samples = self.sweep.samples
         self.report.distance_queries = self.engine.queries
+
+    def jobs(self, samples: Samples) -> list[Job]:
+        """All pairs but those of the robot with itself, and what is demanded of them when."""
+        return self._against_fixtures(samples) + self._against_parts(samples) + self._held(samples)
 
     def _note(self, hits: list[Hit], clause: str) -> None:
         """The deepest hit of each pair and step becomes a fault."""

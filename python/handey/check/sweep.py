@@ -21,7 +21,7 @@ from handey.check.robot import Joint, Robot
 from handey.check.solids import Engine, Piece, Placed
 from handey.check.values import Array
 
-__all__ = ["Actor", "Clearance", "Hit", "Job", "Samples", "Sweep"]
+__all__ = ["HORIZON", "Actor", "Clearance", "Hit", "Job", "Samples", "Sweep", "lower_bounds"]
 
 FLOOR = 1e-5  # of motion between two samples, where cutting ends [m]
 HORIZON = 0.1  # clearances above this are not looked for [m]
@@ -302,6 +302,19 @@ def _unproven(job: Job, bound: Array, motion: Array, clearance: Clearance) -> np
     """The intervals in which the bounds leave it open whether the pair keeps what is asked."""
     aim = np.where(job.clears, np.maximum(-job.tolerance, clearance.wanted()), -job.tolerance)
     return np.flatnonzero(job.live & (bound[:-1] + bound[1:] < motion + 2 * aim))
+
+
+def lower_bounds(
+    frames: Frames, job: Job, counts: np.ndarray, below: float
+) -> list[tuple[int, int, Array]]:
+    """For every pair of pieces a lower bound of the distance at each sample (n,).
+
+    Looked at closely only at samples where intervals that count begin or end and the rough bound is
+    below `below`; empty if there are none.
+    """
+    rough = _rough(frames, job)
+    near = np.flatnonzero(counts & (np.minimum(rough[:-1], rough[1:]) < below))
+    return _bounds(frames, job, rough, near) if len(near) else []
 
 
 def _rough(frames: Frames, job: Job) -> Array:

@@ -12,7 +12,9 @@ from handey.check.cell import Cell
 from handey.check.plan_data import PlanData
 from handey.html_page import asset, filled, html_page, script_of
 from handey.report_file import ToldReport
-from handey.view.scene import cell_scene, tried_scene
+from handey.view.clearance import clearance_along
+from handey.view.planes import grasp_planes
+from handey.view.scene import cell_scene, clearance_scene, tried_scene
 from handey.view.told import told
 
 __all__ = ["cell_page", "fault_page"]
@@ -27,6 +29,8 @@ SCRIPTS = (
     "picture",
     "words",
     "timeline",
+    "clearance",
+    "grasp_plane",
     "report",
     "hands",
 )
@@ -38,8 +42,10 @@ def cell_page(
     """The whole page."""
     scene = cell_scene(cell, plan)
     scene["report"] = [] if report is None else tried_scene(cell, plan, report)
+    curve = None if plan is None else clearance_along(cell, plan)
+    scene["clearance"] = None if curve is None else clearance_scene(curve)
     failed = plan is None and report is not None
-    panel = "" if report is None else told(report)
+    panel = "" if report is None else told(report, grasp_planes(cell, plan, report))
     kinds = [
         "failed" if failed else "plain",
         "told" if panel else "untold",

@@ -21,8 +21,9 @@ from handey.check.values import Array
 from handey.reasons import STAGES, Tried
 from handey.report import GoalReport
 from handey.report_file import ToldReport
+from handey.view.clearance import ClearanceCurve
 
-__all__ = ["cell_scene", "packed", "tried_scene"]
+__all__ = ["cell_scene", "clearance_scene", "ends_of", "packed", "tried_scene"]
 
 CREASE = np.radians(30.0)  # sharper edges are drawn
 MOST_TRIANGLES = 200_000  # of pictures; above that the collision shapes are shown
@@ -164,6 +165,16 @@ def _motion(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def clearance_scene(curve: ClearanceCurve) -> dict[str, Any]:
+    """The curve of clearance; its times and distances are packed."""
+    return {
+        "time": packed(curve.time.astype("<f4")),
+        "distance": packed(curve.distance.astype("<f4")),
+        "between": packed(curve.between.astype("<i2")),
+        "pairs": [list(pair) for pair in curve.pairs],
+    }
+
+
 # ------------------------------------------------------------------------------------------- tried
 
 
@@ -171,7 +182,7 @@ def tried_scene(cell: Cell, plan: PlanData | None, report: ToldReport) -> list[d
     """Of each goal that is told: where its part is at both ends, and the hand poses tried."""
     result = []
     for goal in report.goals:
-        ends = _ends(cell, plan, goal)
+        ends = ends_of(cell, plan, goal)
         if ends is None:
             continue
         part, origin, destination = ends
@@ -214,7 +225,7 @@ def _some(tried: list[Tried]) -> list[Tried]:
     return kept
 
 
-def _ends(
+def ends_of(
     cell: Cell, plan: PlanData | None, goal: GoalReport
 ) -> tuple[int, Array, Array | None] | None:
     """The goal's part, where it stands before, and where it is to go if that is known."""

@@ -39,7 +39,7 @@ UNITS = {
     "approached": "grasps",
     "connected": "grasps",
 }
-MOST_REASONS = 40  # Choice: of one stage; the report has all
+AT_ONCE = 4  # Choice: reasons of a stage; the others are one click away
 MOST_ATTEMPTS = 30
 
 
@@ -159,10 +159,12 @@ def _stage(goal: int, stage: Stage) -> str:
         f'<i style="width:{share:.2f}%"></i></div>',
     ]
     if stage.reasons:
-        entries = [_reason(goal, reason) for reason in stage.reasons[:MOST_REASONS]]
-        more = len(stage.reasons) - MOST_REASONS
-        entries += [f'<li class="note">and {more} more</li>'] if more > 0 else []
-        told.append(f'<ul class="reasons">{"".join(entries)}</ul>')
+        entries = [_reason(goal, reason) for reason in stage.reasons]
+        told.append(f'<ul class="reasons">{"".join(entries[:AT_ONCE])}</ul>')
+        if entries[AT_ONCE:]:
+            more = f"<summary>{len(entries) - AT_ONCE} more reasons</summary>"
+            rest = f'<ul class="reasons">{"".join(entries[AT_ONCE:])}</ul>'
+            told.append(f'<details class="more">{more}{rest}</details>')
     return "\n".join([*told, "</li>"])
 
 

@@ -78,7 +78,7 @@ addEventListener("keydown", (e) => {
     ArrowLeft: () => e.shiftKey ? jump(-1) : seek(now - 0.05), ArrowRight: () => e.shiftKey ? jump(1) : seek(now + 0.05),
     t: () => toggle("trace"), g: () => toggle("goals"), l: () => toggle("labels"), j: () => toggle("joints"), f: reframe,
     x: () => toggle("grasp"), y: () => scene.report.length && toggle("tried"), r: () => hasTold && turnTold(),
-    n: () => chooseNext(1), p: () => chooseNext(-1),
+    c: () => clear && leastAt >= 0 && goToLeast(), n: () => chooseNext(1), p: () => chooseNext(-1),
     "1": () => frame(0), "2": () => frame(1), "3": () => frame(2), "4": () => frame(3), "?": help,
     "+": () => zoom(0.85), "=": () => zoom(0.85), "-": () => zoom(1 / 0.85),
     Escape: () => { if (!$("keys").hidden) help(); else choose(-1); },

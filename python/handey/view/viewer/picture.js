@@ -72,15 +72,22 @@ const paint = (stamp) => {
   gl.uniform1f(solid.uniforms.alpha, 1);
   gl.bindTexture(gl.TEXTURE_2D, shadowMap);
   gl.polygonOffset(1, 1);
-  for (const item of items) {
+  // What is marked lets see the hand poses behind it.
+  const seenThrough = items.filter((item) => shown.tried && marked.has(item.name));
+  const drawSolid = (item) => {
     gl.uniform3fv(solid.uniforms.colour, item.colour);
     gl.uniform1f(solid.uniforms.glow, item.glow || 0);
     drawShapes("faces", item.shapes, item.pose, solid);
-  }
+  };
+  for (const item of items) if (!seenThrough.includes(item)) drawSolid(item);
   if (shown.tried) drawTried();
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   if (shown.tried) drawGhosts();
+  gl.uniform1f(solid.uniforms.alpha, 0.32);
+  gl.depthMask(false);
+  for (const item of seenThrough) drawSolid(item);
+  gl.depthMask(true);
   gl.useProgram(flat.program);
   gl.uniformMatrix4fv(flat.uniforms.eye, false, view);
   gl.uniform4fv(flat.uniforms.paint, colours.edge);

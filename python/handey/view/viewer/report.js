@@ -6,11 +6,12 @@ const choose = (index) => {  // a pose that was tried; -1 for none
   chosen.pose = pose ? index : -1;
   card.hidden = !pose;
   if (pose) {
+    const jaws = [[pose.opening, "open"], [pose.width, "on the part"]].filter(([x]) => x > 0);
     const order = shownPoses(), place = order.indexOf(pose);
     $("pickedStage").textContent = pose.stage === "planned" ? "the grasp of the plan" : `fell at: ${pose.stage}`;
     $("pickedStage").style.setProperty("--c", STAGES[pose.stage]);
     $("pickedWhy").textContent = goal.texts[pose.text] || (pose.stage === "planned" ? "It was carried through." : "No reason is told.");
-    $("pickedJaws").textContent = `jaws ${(1000 * pose.opening).toFixed(1)} mm open, ${(1000 * pose.width).toFixed(1)} mm on the part`;
+    $("pickedJaws").textContent = jaws.length ? "jaws " + jaws.map(([x, how]) => `${(1000 * x).toFixed(1)} mm ${how}`).join(", ") : "";
     $("pickedCount").textContent = place < 0 ? "" : `${place + 1} of ${order.length}`;
   }
   draw();
@@ -62,7 +63,7 @@ $("ends").addEventListener("change", () => { chosen.end = $("ends").value; showT
 // ---- reasons
 const whys = [...document.querySelectorAll("#told .why")];
 const unpress = () => {
-  for (const why of whys) why.setAttribute("aria-pressed", "false");
+  for (const why of [...whys, $("least")]) why.setAttribute("aria-pressed", "false");
   marked.clear();
 };
 const showGoal = (number) => {

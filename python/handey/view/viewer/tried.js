@@ -7,6 +7,7 @@ const marked = new Set();  // names of bodies that stand in the way
 const triedGoal = () => scene.report[chosen.goal] || null;
 const endsOf = (goal) => [["origin", goal.origin], ["destination", goal.destination]]
   .filter(([name, pose]) => pose && (chosen.end === "both" || chosen.end === name)).map(([, pose]) => pose);
+const openingOf = (pose) => pose.opening || pose.width;  // where it fell before an opening was chosen: as closed
 const isShown = (pose) => !hidden.has(pose.stage) && (!chosen.only || pose.stage === chosen.only);
 // Where a reason is chosen, poses that fell by the very same are shown alone, if there are any.
 const shownPoses = () => {
@@ -35,7 +36,7 @@ const remakeForks = () => {
   const goal = triedGoal(), points = {};
   if (goal) {
     for (const pose of shownPoses()) {
-      const shape = fork(pose.opening), list = points[pose.stage] ||= [];
+      const shape = fork(openingOf(pose)), list = points[pose.stage] ||= [];
       for (const X_WP of endsOf(goal)) {
         const X_WH = mul(X_WP, pose.at);
         for (const p of shape) list.push(...at(X_WH, p));
@@ -63,7 +64,7 @@ const drawGhosts = () => {
     gl.uniform1f(solid.uniforms.alpha, 0.55);
     gl.uniform1f(solid.uniforms.glow, 0.2);
     gl.uniform3fv(solid.uniforms.colour, rgb(STAGES[pose.stage]));
-    for (const [body, X_WB] of handBodiesAt(X_WH, pose.opening)) drawShapes("faces", scene.robot.bodies[body].shapes, X_WB, solid);
+    for (const [body, X_WB] of handBodiesAt(X_WH, openingOf(pose))) drawShapes("faces", scene.robot.bodies[body].shapes, X_WB, solid);
     gl.uniform1f(solid.uniforms.alpha, 0.35);
     gl.uniform3fv(solid.uniforms.colour, rgb(partColour(goal.part)));
     if (X_WP === goal.destination) drawShapes("faces", scene.parts[goal.part].shapes, X_WP, solid);
@@ -85,7 +86,7 @@ const frameOf = (X_WH, opening, list, length = 0.05) => {
 };
 const drawFrames = (X_WH, opening) => {
   const list = [], ghosts = shown.tried ? ghostPlaces() : [];
-  if (ghosts.length) for (const place of ghosts) frameOf(place.X_WH, place.pose.opening, list);
+  if (ghosts.length) for (const place of ghosts) frameOf(place.X_WH, openingOf(place.pose), list);
   else frameOf(X_WH, opening, list);
   recoloured(frameLines, list);
   gl.disable(gl.DEPTH_TEST);

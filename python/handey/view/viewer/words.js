@@ -60,6 +60,8 @@ const readout = (step, row) => {
   const doing = step ? `${MEANING[step.action]}${step.held ? ": " + step.held : ""}` : "the cell at its start";
   if ($("what").textContent !== doing) $("what").textContent = doing;
   $("swatch").style.background = step ? ACTIONS[step.action] : "";
+  tellClearance();
+  drawPlanes();
   if (failed) return;
   const goal = scene.goals[step ? step.goal : 0];
   const aside = step && step.held && goal && step.held !== goal.part ? `${step.held} aside, then ` : "";
