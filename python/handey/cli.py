@@ -160,6 +160,14 @@ def parser() -> argparse.ArgumentParser:
         help="plan file, or the file of plan --report (JSON; default: plan the task)",
     )
     view.add_argument("-o", "--output", metavar="HTML", help="page (default: name of CELL + .html)")
+    view.add_argument(
+        "--serve",
+        action="store_true",
+        help="serve the page on 127.0.0.1; it comes anew when a file of the cell is saved",
+    )
+    view.add_argument(
+        "--port", type=_port, metavar="N", help="with --serve (default: one that is free)"
+    )
     _add_planning(view)
     _add_advice(view)
     view.set_defaults(run=view_command, json=False)
@@ -240,6 +248,16 @@ def _seed(text: str) -> int:
             f"expected a whole number from 0 to {GREATEST_SEED}, found '{text}'"
         )
     return seed
+
+
+def _port(text: str) -> int:
+    try:
+        port = int(text)
+    except ValueError:
+        port = -1
+    if not 1 <= port <= 65535:
+        raise argparse.ArgumentTypeError(f"expected a port from 1 to 65535, found '{text}'")
+    return port
 
 
 def _deadline(text: str) -> float:

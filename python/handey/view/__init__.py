@@ -55,8 +55,7 @@ def make_page(
     plan: PathLike | Mapping[str, Any] | None,
     report: Report | Mapping[str, Any] | None = None,
     notes: Sequence[str] = (),
-    *,
-    live: bool = False,
+    version: str = "",
 ) -> str:
     """The page as text; see `write_page`.
 
@@ -65,7 +64,7 @@ def make_page(
         plan: the plan, as of `write_page`.
         report: the same.
         notes: what there is to say besides.
-        live: the page waits for news from the server that it comes from.
+        version: of a page that is served live; it waits for a newer one.
     """
     content = read_cell(Path(cell))
     data, own = (None, None) if plan is None else _read(plan, content)
@@ -73,7 +72,7 @@ def make_page(
     if notes:
         told = told or ToldReport("unknown" if data is None else "plan")
         told.notes += notes
-    return cell_page(content, data, told, live=live)
+    return cell_page(content, data, told, version)
 
 
 def _read(

@@ -7,6 +7,7 @@ JavaScript).
 from __future__ import annotations
 
 import html
+from collections.abc import Sequence
 
 from handey.check.cell import Cell
 from handey.check.plan_data import PlanData
@@ -17,7 +18,7 @@ from handey.view.planes import grasp_planes
 from handey.view.scene import cell_scene, clearance_scene, tried_scene
 from handey.view.told import told
 
-__all__ = ["cell_page", "fault_page"]
+__all__ = ["cell_page", "words_page"]
 
 SCRIPTS = (
     "algebra",
@@ -33,25 +34,37 @@ SCRIPTS = (
     "grasp_plane",
     "report",
     "hands",
+    "live",
 )
 
 
+WORDS = """<body class="words" data-version="{{version}}">
+<main id="words" role="status">
+<h1>{{title}}</h1>
+<p><b>{{heading}}</b></p>
+{{lines}}
+</main>
+<p id="live" hidden role="status"></p>
+"""
+
+
 def cell_page(
-    cell: Cell, plan: PlanData | None, report: ToldReport | None = None, *, live: bool = False
+    cell: Cell, plan: PlanData | None, report: ToldReport | None = None, version: str = ""
 ) -> str:
-    """The whole page."""
+    """The whole page; one with a version asks its server for newer ones."""
     scene = cell_scene(cell, plan)
     scene["report"] = [] if report is None else tried_scene(cell, plan, report)
     curve = None if plan is None else clearance_along(cell, plan)
     scene["clearance"] = None if curve is None else clearance_scene(curve)
     failed = plan is None and report is not None
     panel = "" if report is None else told(report, grasp_planes(cell, plan, report))
-    kinds = [
-        "failed" if failed else "plain",
-        "told" if panel else "untold",
-        *(["live"] if live else []),
-    ]
-    parts = {"title": html.escape(cell.name), "told": panel, "kinds": " ".join(kinds)}
+    kinds = f"{'failed' if failed else 'plain'} {'told' if panel else 'untold'}"
+    parts = {
+        "title": html.escape(cell.name),
+        "told": panel,
+        "kinds": kinds,
+        "version": html.escape(version),
+    }
     return html_page(
         cell.name,
         asset(__package__, "style.css"),
@@ -59,10 +72,24 @@ def cell_page(
         script_of(__package__, [f"viewer/{name}.js" for name in SCRIPTS]),
         scene,
         dark=True,
-        live=live,
+        live=bool(version),
     )
 
 
-def fault_page(title: str, faults: list[str]) -> str:
-    """A page that says what is wrong with a cell file; it waits for a better one."""
-    raise NotImplementedError
+def words_page(title: str, heading: str, lines: Sequence[str], version: str) -> str:
+    """A page without a picture, served live: what is wrong with a file, or what is being done."""
+    items = "".join(f"<li>{html.escape(line)}</li>" for line in lines)
+    parts = {
+        "title": html.escape(title),
+        "heading": html.escape(heading),
+        "lines": f"<ul>{items}</ul>" if items else "",
+        "version": html.escape(version),
+    }
+    return html_page(
+        title,
+        asset(__package__, "style.css"),
+        filled(WORDS, parts),
+        script_of(__package__, ["viewer/live.js"]),
+        dark=True,
+        live=True,
+    )

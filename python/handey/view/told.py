@@ -81,7 +81,7 @@ def _goal(goal: GoalReport, several: bool, is_open: bool, plane: str) -> str:
     title = f"Goal {goal.goal}: {goal.text}" if several else goal.text
     content = [
         *_cause(goal),
-        f'<p class="proof">{_text(goal.proof)}</p>' if goal.proof else "",
+        *_proof(goal),
         *_planned(goal),
         *_funnel(goal),
         *_advice(goal.advice),
@@ -110,8 +110,14 @@ def _cause(goal: GoalReport) -> list[str]:
     ]
 
 
+def _proof(goal: GoalReport) -> list[str]:
+    """Unless the cause has said it."""
+    is_told = goal.cause is not None and goal.cause.text in goal.proof
+    return [f'<p class="proof">{_text(goal.proof)}</p>'] if goal.proof and not is_told else []
+
+
 def _sentence(words: str) -> str:
-    """As it stands alone: a capital, unless a name begins it, and a full stop."""
+    """With a full stop; what begins with a name keeps its small letter."""
     return words if words.endswith((".", "!", "?")) else words + "."
 
 
@@ -160,10 +166,12 @@ def _stage(goal: int, stage: Stage) -> str:
     ]
     if stage.reasons:
         entries = [_reason(goal, reason) for reason in stage.reasons]
-        told.append(f'<ul class="reasons">{"".join(entries[:AT_ONCE])}</ul>')
-        if entries[AT_ONCE:]:
-            more = f"<summary>{len(entries) - AT_ONCE} more reasons</summary>"
-            rest = f'<ul class="reasons">{"".join(entries[AT_ONCE:])}</ul>'
+        first = AT_ONCE if len(entries) > AT_ONCE + 1 else len(entries)
+        further = entries[first:]
+        told.append(f'<ul class="reasons">{"".join(entries[:first])}</ul>')
+        if further:
+            more = f"<summary>{len(further)} more reasons</summary>"
+            rest = f'<ul class="reasons">{"".join(further)}</ul>'
             told.append(f'<details class="more">{more}{rest}</details>')
     return "\n".join([*told, "</li>"])
 
