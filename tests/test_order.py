@@ -239,7 +239,8 @@ def test_a_later_goal_that_is_impossible_is_named_and_nothing_is_planned(tmp_pat
     for order in ("given", "any"):
         result = handey.plan(handey.load_cell(write(tmp_path, parts, task, order=order)))
         assert result.plan is None
-        assert result.report.goals[0].status == "planned"
+        assert result.report.verdict == "infeasible"
+        assert result.report.goals[0].status == "not tried"
         assert result.report.goals[1].status == "failed"
         assert any("goal 1 (b" in reason for reason in result.report.reasons)
 

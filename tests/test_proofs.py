@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import solvable_cells
 import yaml
 
 import handey
@@ -103,3 +105,67 @@ def test_proofs_can_be_left_out(tmp_path: Path) -> None:
     path = CELLS / "impossible_out_of_reach.yaml"
     report = handey.plan(handey.load_cell(path), handey.PlanOptions(prove=False)).report
     assert (report.verdict, report.goals[0].proof) == ("unknown", "")
+
+
+def test_a_part_in_a_closed_box_is_proved_with_the_resolution_and_the_box(tmp_path: Path) -> None:
+    report = failed(CELLS / "impossible_closed_box.yaml").report
+    goal = report.goals[0]
+    assert report.verdict == "infeasible"
+    assert "at the origin" in goal.proof and "6 mm and 5 degrees" in goal.proof
+    assert "in box" in goal.proof and "9 feature pairs" in goal.proof
+
+
+def box_round(x: float, y: float, height: float = 0.16) -> dict:
+    walls = [
+        {"box": [0.02, 0.2, height], "pose": {"xyz": [side * 0.09, 0, height / 2]}}
+        for side in (-1, 1)
+    ]
+    walls += [
+        {"box": [0.16, 0.02, height], "pose": {"xyz": [0, side * 0.09, height / 2]}}
+        for side in (-1, 1)
+    ]
+    lid = {"box": [0.2, 0.2, 0.02], "pose": {"xyz": [0, 0, height + 0.01]}}
+    return {"pose": {"xyz": [x, y, 0]}, "shapes": [*walls, lid]}
+
+
+def test_a_box_round_the_goal_is_proved_for_the_destination(tmp_path: Path) -> None:
+    path = cell(tmp_path, fixtures={"table": TABLE, "box": box_round(0.5, -0.2)})
+    report = failed(path).report
+    assert report.verdict == "infeasible"
+    assert "at the destination" in report.goals[0].proof
+
+
+def test_a_box_that_may_be_moved_proves_nothing(tmp_path: Path) -> None:
+    lidless = box_round(0.5, 0.2)
+    parts = {"block": block(0.5, 0.2), "box": lidless | {"mass": 0.5, "may_move": True}}
+    loaded = handey.load_cell(cell(tmp_path, parts=parts))
+    report = handey.plan(loaded, replace(handey.PlanOptions(), deadline=5.0, advice=False)).report
+    assert report.verdict != "infeasible"
+    fixed = {"block": block(0.5, 0.2), "box": lidless | {"mass": 0.5}}
+    assert failed(cell(tmp_path, parts=fixed)).report.verdict == "infeasible"
+
+
+def test_without_a_support_one_grasp_must_serve_both_ends(tmp_path: Path) -> None:
+    def lane(x: float, y: float, along_x: bool) -> dict:
+        size = [0.4, 0.02, 0.07] if along_x else [0.02, 0.4, 0.07]
+        shapes = []
+        for side in (-1, 1):
+            at = [0, side * 0.041, 0.035] if along_x else [side * 0.031, 0, 0.035]
+            shapes.append({"box": list(size), "pose": {"xyz": at}})
+        return {"pose": {"xyz": [x, y, 0]}, "shapes": shapes}
+
+    fixtures = {"lane": lane(0.5, 0.2, True), "cross": lane(0.5, -0.3, False)}
+    task = [{"place": "block", "at": {"xyz": [0.5, -0.3, 0.025]}}]
+    bare = {**TABLE, "support": False}
+    path = cell(tmp_path, fixtures={"table": bare, **fixtures}, task=task)
+    report = failed(path).report
+    assert report.verdict == "infeasible"
+    assert "no support" in report.goals[0].proof
+    path = cell(tmp_path, fixtures={"table": TABLE, **fixtures}, task=task)
+    assert handey.plan(handey.load_cell(path)).plan is not None
+
+
+def test_nothing_is_proved_of_random_cells_that_have_a_plan(tmp_path: Path) -> None:
+    outcomes = [solvable_cells.look(path) for path in solvable_cells.cells(3, 20, tmp_path)]
+    assert [outcome for outcome in outcomes if outcome.is_false] == []
+    assert sum(outcome.verdict == "unknown" for outcome in outcomes) >= 5

@@ -1,5 +1,6 @@
 // Proofs that there is no grasp, or no way to one: of the floors grasp and cspace.
 #include "configurations.hpp"
+#include "handey/cspace/exhaustion.hpp"
 #include "handey/grasp/hand_reach.hpp"
 #include "interruptible.hpp"
 
@@ -9,9 +10,89 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
+std::vector<Pose> poses_of(const py::sequence& given, const std::string& place) {
+  std::vector<Pose> poses;
+  for (const py::handle& each : given) {
+    poses.push_back(real_pose(each, place + "[" + std::to_string(poses.size()) + "]"));
+  }
+  return poses;
+}
+
+void bind_exhaustion(py::module_& m) {
+  const ExhaustionOptions defaults;
+  py::class_<ExhaustionOptions>(m, "ExhaustionOptions", "Options of exhaust_grasps.")
+      .def(py::init([](const py::object& spacing, const py::object& turn, std::size_t most_cells,
+                       int most_pairs) {
+             return ExhaustionOptions{real_number(spacing, "spacing"), real_number(turn, "turn"),
+                                      most_cells, most_pairs};
+           }),
+           py::kw_only(), py::arg("spacing") = defaults.spacing, py::arg("turn") = defaults.turn,
+           py::arg("most_cells") = defaults.most_cells, py::arg("most_pairs") = defaults.most_pairs)
+      .def_readwrite("spacing", &ExhaustionOptions::spacing,
+                     "Of cells that may be judged by their centres [m].")
+      .def_readwrite("turn", &ExhaustionOptions::turn, "The same of directions [rad].")
+      .def_readwrite("most_cells", &ExhaustionOptions::most_cells,
+                     "Looked at before it is given up.")
+      .def_readwrite("most_pairs", &ExhaustionOptions::most_pairs,
+                     "With edges or vertices; a part with more is given up.");
+  py::enum_<IllegalKind>(m, "IllegalKind")
+      .value("OutOfReach", IllegalKind::OutOfReach)
+      .value("JointLimit", IllegalKind::JointLimit)
+      .value("Collision", IllegalKind::Collision);
+  py::class_<IllegalCause>(m, "IllegalCause", "What makes hand poses illegal.")
+      .def_readonly("kind", &IllegalCause::kind)
+      .def_readonly("mover", &IllegalCause::mover, "Of collisions: a link.")
+      .def_readonly("other", &IllegalCause::other, "Of collisions: what it meets.")
+      .def_readonly("joint", &IllegalCause::joint, "Of joint limits: its index; else -1.")
+      .def_readonly("share", &IllegalCause::share, "Of all that is illegal, 0..1.")
+      .def_readonly("least", &IllegalCause::least,
+                    "The least met: out of reach [m], past a limit [rad]; 0 for collisions.");
+  py::class_<Exhaustion>(m, "Exhaustion", "Is no hand pose legal? True if that is so.")
+      .def_readonly("exhausted", &Exhaustion::exhausted,
+                    "No hand pose is legal at the resolution told.")
+      .def_readonly("pairs", &Exhaustion::pairs, "Of features that the jaws span.")
+      .def_readonly("cells_looked_at", &Exhaustion::cells_looked_at)
+      .def_readonly("spacing", &Exhaustion::spacing,
+                    "Widest cells judged by their centres [m]; 0: none, all is proved.")
+      .def_readonly("turn", &Exhaustion::turn, "The same of directions [rad].")
+      .def_readonly("causes", &Exhaustion::causes, "Greatest share first.")
+      .def_readonly("reason", &Exhaustion::reason, "Why it is not exhausted.")
+      .def("__bool__", [](const Exhaustion& self) { return self.exhausted; });
+  m.def(
+      "exhaust_grasps",
+      [](const std::shared_ptr<const CollisionModel>& model, const Cell& cell, int part,
+         const py::sequence& places, const SphericalWristSolver& solver,
+         const ExhaustionOptions& options) {
+        const std::vector<Pose> poses = poses_of(places, "places");
+        const Unlock unlock;
+        return exhaust_grasps(model, cell, part, poses, solver, options);
+      },
+      "model"_a, "cell"_a, "part"_a, "places"_a, "solver"_a, "options"_a = defaults,
+      R"(Is no hand pose legal at which the jaws could hold a part where it stands?
+
+Hand poses on all feature pairs are cut into cells until each is proved illegal, or its centre is
+illegal with a margin. Ends at the first pose that is legal.
+
+Args:
+    model: CollisionModel of the cell.
+    cell: Cell with an empty hand.
+    part: index of the part.
+    places: the part in the world, (n, 4, 4); a pose must be legal at all of them.
+    solver: SphericalWristSolver of the cell's robot.
+    options: ExhaustionOptions.
+
+Returns:
+    Exhaustion.
+
+Raises:
+    InvalidInput: for no place, poses that are not rigid, an unknown part, a part in the hand, bad
+        options.)");
+}
+
 }  // namespace
 
 void bind_proofs(py::module_& m) {
+  bind_exhaustion(m);
   m.def(
       "beyond_reach",
       [](const SphericalWristSolver& solver, const Gripper& gripper, const Body& part,

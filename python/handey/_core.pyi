@@ -42,6 +42,8 @@ __all__: list[str] = [
     "DepthMapOptions",
     "EdgeResult",
     "EdgeStatus",
+    "Exhaustion",
+    "ExhaustionOptions",
     "FallKind",
     "Fallen",
     "Feature",
@@ -62,6 +64,8 @@ __all__: list[str] = [
     "HeightMap",
     "HeldPart",
     "Hit",
+    "IllegalCause",
+    "IllegalKind",
     "InscribedCircle",
     "InverseResult",
     "InverseSolution",
@@ -158,6 +162,7 @@ __all__: list[str] = [
     "cover_heights",
     "cross_section",
     "describe_scene",
+    "exhaust_grasps",
     "explained_pixels",
     "find_compatible_grasps",
     "find_feature_pairs",
@@ -264,6 +269,153 @@ class CancelToken:
         """
         Cancelled, or past the deadline.
         """
+
+class Exhaustion:
+    """
+    Is no hand pose legal? True if that is so.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def causes(self) -> list[IllegalCause]:
+        """
+        Greatest share first.
+        """
+    @property
+    def cells_looked_at(self) -> int: ...
+    @property
+    def exhausted(self) -> bool:
+        """
+        No hand pose is legal at the resolution told.
+        """
+    @property
+    def pairs(self) -> int:
+        """
+        Of features that the jaws span.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why it is not exhausted.
+        """
+    @property
+    def spacing(self) -> float:
+        """
+        Widest cells judged by their centres [m]; 0: none, all is proved.
+        """
+    @property
+    def turn(self) -> float:
+        """
+        The same of directions [rad].
+        """
+
+class ExhaustionOptions:
+    """
+    Options of exhaust_grasps.
+    """
+    def __init__(
+        self,
+        *,
+        spacing: typing.Any = 0.006,
+        turn: typing.Any = 0.08726646,
+        most_cells: typing.SupportsInt | typing.SupportsIndex = 40000,
+        most_pairs: typing.SupportsInt | typing.SupportsIndex = 400,
+    ) -> None: ...
+    @property
+    def most_cells(self) -> int:
+        """
+        Looked at before it is given up.
+        """
+    @most_cells.setter
+    def most_cells(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def most_pairs(self) -> int:
+        """
+        With edges or vertices; a part with more is given up.
+        """
+    @most_pairs.setter
+    def most_pairs(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def spacing(self) -> float:
+        """
+        Of cells that may be judged by their centres [m].
+        """
+    @spacing.setter
+    def spacing(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def turn(self) -> float:
+        """
+        The same of directions [rad].
+        """
+    @turn.setter
+    def turn(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class IllegalCause:
+    """
+    What makes hand poses illegal.
+    """
+    @property
+    def joint(self) -> int:
+        """
+        Of joint limits: its index; else -1.
+        """
+    @property
+    def kind(self) -> IllegalKind: ...
+    @property
+    def least(self) -> float:
+        """
+        The least met: out of reach [m], past a limit [rad]; 0 for collisions.
+        """
+    @property
+    def mover(self) -> str:
+        """
+        Of collisions: a link.
+        """
+    @property
+    def other(self) -> str:
+        """
+        Of collisions: what it meets.
+        """
+    @property
+    def share(self) -> float:
+        """
+        Of all that is illegal, 0..1.
+        """
+
+class IllegalKind:
+    """
+    Members:
+
+      OutOfReach
+
+      JointLimit
+
+      Collision
+    """
+
+    Collision: typing.ClassVar[IllegalKind]
+    JointLimit: typing.ClassVar[IllegalKind]
+    OutOfReach: typing.ClassVar[IllegalKind]
+    __members__: typing.ClassVar[dict[str, IllegalKind]]
+    @typing.overload
+    def __eq__(self, other: IllegalKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: IllegalKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
 
 class Region:
     """
@@ -4716,6 +4868,36 @@ def describe_scene(checker: CollisionChecker, options: SceneOptions = ...) -> Sc
 
     Raises:
         InvalidInput: for options that are not positive.
+    """
+
+def exhaust_grasps(
+    model: CollisionModel,
+    cell: Cell,
+    part: typing.SupportsInt | typing.SupportsIndex,
+    places: collections.abc.Sequence[typing.Any],
+    solver: SphericalWristSolver,
+    options: ExhaustionOptions = ...,
+) -> Exhaustion:
+    """
+    Is no hand pose legal at which the jaws could hold a part where it stands?
+
+    Hand poses on all feature pairs are cut into cells until each is proved illegal, or its centre is
+    illegal with a margin. Ends at the first pose that is legal.
+
+    Args:
+        model: CollisionModel of the cell.
+        cell: Cell with an empty hand.
+        part: index of the part.
+        places: the part in the world, (n, 4, 4); a pose must be legal at all of them.
+        solver: SphericalWristSolver of the cell's robot.
+        options: ExhaustionOptions.
+
+    Returns:
+        Exhaustion.
+
+    Raises:
+        InvalidInput: for no place, poses that are not rigid, an unknown part, a part in the hand, bad
+            options.
     """
 
 def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = ...) -> FeaturePairs:

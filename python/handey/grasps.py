@@ -75,16 +75,26 @@ class Grasps:
         self._denser = _denser_passes(options)
         self._turns: deque[_Turn] = deque()
 
-    def first(self, elsewhere: Callable[[], bool] = lambda: False) -> Iterator[Grasp]:
+    def first(
+        self,
+        elsewhere: Callable[[], bool] = lambda: False,
+        give_up: Callable[[], None] = lambda: None,
+    ) -> Iterator[Grasp]:
         """All pairs, two faces first; in denser passes as long as none could be approached.
 
         Args:
             elsewhere: asked where a quick look, a denser one too, finds no legal pose; the stream
                 ends there if true.
+            give_up: called once if the first look finds no legal pose; raises if it is proved that
+                there is none.
         """
+        asked = False
         while self._kinds:
             kind = self._kinds.pop(0)
             yield from self._of_kind(kind)
+            if not asked and not self._report.funnel.get("legal grasp poses"):
+                asked = True
+                give_up()
             # Faces once more, before others are looked at.
             if self._denser and self._denser[0][0] == kind and not self._approached():
                 self._begin(*self._denser.pop(0))

@@ -21,6 +21,7 @@ from handey.goal_places import places_for
 from handey.in_the_way import carries, runs_into
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
+from handey.proofs import Proofs, Proved
 from handey.reasons import Reason
 from handey.report import GoalReport, Report, StageClock
 from handey.resting import PlacementOptions, Sought, placements, same_rest
@@ -56,6 +57,7 @@ class Hands:
         table: makes or reads maps of the arm's plane.
         clock: CPU seconds by stage.
         plan_goal: plans one part to one pose.
+        proofs: that a goal cannot be reached; None: they are not looked for.
     """
 
     model: _core.CollisionModel
@@ -63,6 +65,7 @@ class Hands:
     table: Callable[[], _core.ArmTable | None]
     clock: StageClock
     plan_goal: GoalPlanner
+    proofs: Proofs | None = None
 
 
 @dataclass(frozen=True)
@@ -143,7 +146,7 @@ class Mover:
             if self.is_spent():
                 return
             tried += 1
-            carry = self._plan(state, state.cell, target, home(target), report)
+            carry = self._plan(state, state.cell, target, home(target), report, index)
             if carry is not None:
                 ways += 1
                 yield state.after(index, target, carry, is_own=True)
@@ -183,7 +186,7 @@ class Mover:
         for target in self._targets(cell, index, kept_free, Sought()):
             if self.is_spent():
                 return []
-            carry = self._plan(state, cell, target, None, scratch)
+            carry = self._plan(state, cell, target, None, scratch, index)
             if carry is None:
                 continue
             with self.hands.clock("order"):
@@ -299,7 +302,9 @@ class Mover:
         target: PlaceAt,
         home: np.ndarray | None,
         report: GoalReport,
+        index: int | None = None,
     ) -> Carry | None:
+        """One part to one pose; `index` of the goal that cannot be reached if this cannot be."""
         hands = self.hands
         self.tries += 1
         part = cell.part_index(target.part)
@@ -307,11 +312,23 @@ class Mover:
         work = Workspace(
             hands.model, scene, hands.solver, state.current, home, hands.clock, hands.table
         )
+        if index is not None:
+            work = replace(work, give_up=lambda: self._give_up(index))
         carry = hands.plan_goal(work, self._options(), report)
         for (action, planner), count in work.given.items():
             counts = self.report.planners.setdefault(action, {})
             counts[planner] = counts.get(planner, 0) + count
         return carry
+
+    def _give_up(self, index: int) -> None:
+        """Raise if it is proved that a goal cannot be reached."""
+        proofs = self.hands.proofs
+        if proofs is None:
+            return
+        with self.hands.clock("proofs"):
+            proof = proofs.no_grasp(index)
+        if proof is not None:
+            raise Proved(index, proof)
 
     def _options(self) -> PlanOptions:
         """Of one try: with little effort, one pass over the grasps."""

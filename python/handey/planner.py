@@ -176,17 +176,19 @@ def _reach_goals(
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell)
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
+    proofs = Proofs(cell_file, model, solver)
     hands = Hands(
         model,
         solver,
         cache(lambda: _arm_table(cell_file.cell.robot)),
         clock,
         _plan_goal,
+        proofs if options.prove else None,
     )
     try:
         if options.prove:
             with clock("proofs"):
-                proved = Proofs(cell_file, model, solver).at_once()
+                proved = proofs.at_once()
             if proved is not None:
                 _tell_grasps(cell_file, options, hands, report.goals[proved.goal])
                 raise proved
@@ -227,7 +229,7 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     tries = Tries(work, report, options)
     grasps = Grasps(work, options, report)
     regrasp = Regrasp(work, options)
-    carry = tries.reach_any(grasps.first(elsewhere=regrasp.is_needed)) or regrasp.run(0)
+    carry = tries.reach_any(grasps.first(regrasp.is_needed, work.give_up)) or regrasp.run(0)
     if carry is None and regrasp.was_needed:
         # The tables are samples: what they have not may be found where all is looked at.
         grasps = Grasps(work, options, report)

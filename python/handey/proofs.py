@@ -1,16 +1,19 @@
 """Is there certainly no plan?
 
 A goal can be proved to be out of the question without a search: the part is wider than the jaws
-open, or so far away that no hand pose lets the jaws close on it. Bodies that handey may move are no
-obstacles here, so a proof of one goal holds in whatever order the goals are reached: the task is
-infeasible.
+open, or so far away that no hand pose lets the jaws close on it. Where the first grasps that are
+looked at are illegal, all hand poses on all of its feature pairs may be proved so at its start or
+at its goal alone: no regrasp helps then. Bodies that handey may move are no obstacles here, so a
+proof of one goal holds in whatever order the goals are reached: the task is infeasible.
 Not guaranteed: a proof where there is no plan. What is proved is so at the resolution that is told.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -20,10 +23,13 @@ from handey.goal_places import is_met
 from handey.jaws import wider_than_jaws
 from handey.reasons import Reason
 from handey.task import PlaceAt
+from handey.wording import plain
 
 __all__ = ["Proof", "Proofs", "Proved"]
 
 ENDS = ("origin", "destination")
+MOST_CAUSES = 4  # Choice: that are told of illegal hand poses
+FAR_AWAY = 50.0  # under the cell, out of the way [m]
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,7 @@ class Proved(Exception):
         self.goal, self.proof = goal, proof
 
 
-@dataclass(frozen=True)
+@dataclass
 class Proofs:
     """Proofs for the goals of one cell.
 
@@ -60,6 +66,7 @@ class Proofs:
     cell_file: CellFile
     model: _core.CollisionModel
     solver: _core.SphericalWristSolver
+    _exhausted: dict[tuple[object, ...], _core.Exhaustion] = field(default_factory=dict)
 
     def at_once(self) -> Proved | None:
         """What needs no search, of the first goal of which it can be said."""
@@ -72,6 +79,14 @@ class Proofs:
                 return Proved(index, proof)
         return None
 
+    def all_of(self, index: int) -> list[Proof]:
+        """All that can be proved of a goal."""
+        if not self._must_move(index):
+            return []
+        part = self._part(self.cell_file.goals[index].part)
+        found = (self._too_wide(part), self._out_of_reach(index, part), self.no_grasp(index))
+        return [proof for proof in found if proof is not None]
+
     def _must_move(self, index: int) -> bool:
         """Is the part not yet where the goal wants it?"""
         cell = self.cell_file.cell
@@ -80,6 +95,66 @@ class Proofs:
     def _part(self, name: str) -> _core.Body:
         cell = self.cell_file.cell
         return cell.parts[cell.part_index(name)]
+
+    def no_grasp(self, index: int) -> Proof | None:
+        """No hand pose is legal where the part must be held to reach a goal."""
+        if not self._must_move(index):
+            return None
+        ends = list(self.ends(index))
+        for end, X_WP in ends:
+            found = self._exhaust(index, [X_WP])
+            if found:
+                return self._no_legal_pose(index, f"at the {end}", found)
+        if len(ends) == 2 and not self._can_regrasp(index):
+            found = self._exhaust(index, [X_WP for _, X_WP in ends])
+            if found:
+                where = "at both ends, and there is no support to regrasp it on"
+                return self._no_legal_pose(index, where, found)
+        return None
+
+    def _no_legal_pose(self, index: int, where: str, found: _core.Exhaustion) -> Proof:
+        part = self.cell_file.goals[index].part
+        if not found.pairs:
+            return Proof(f"no grasp: {part} has no two features that the jaws could hold it by")
+        resolution = "proved throughout"
+        if found.spacing > 0.0:
+            turn = math.degrees(found.turn)
+            resolution = f"at a resolution of {1e3 * found.spacing:g} mm and {turn:.3g} degrees"
+        robot = self.cell_file.cell.robot
+        hand = robot.bodies[robot.gripper.body].name
+        causes = ", ".join(_told(cause, hand) for cause in found.causes[:MOST_CAUSES])
+        return Proof(
+            f"no grasp: of {found.pairs} feature pairs of {part}, no hand pose is legal {where}, "
+            f"{resolution}: {causes}"
+        )
+
+    def _exhaust(self, index: int, places: Sequence[np.ndarray]) -> _core.Exhaustion:
+        part = self.cell_file.cell.part_index(self.cell_file.goals[index].part)
+        key = (part, *(X_WP.tobytes() for X_WP in places))
+        if key not in self._exhausted:
+            self._exhausted[key] = _core.exhaust_grasps(
+                self.model, self._unmoved, part, places, self.solver
+            )
+        return self._exhausted[key]
+
+    @cached_property
+    def _unmoved(self) -> _core.Cell:
+        """The cell without the parts that may be moved, which are put far away."""
+        cell = self.cell_file.cell
+        with_goal = {goal.part for goal in self.cell_file.goals}
+        for index, part in enumerate(cell.parts):
+            if part.may_move or part.name in with_goal:
+                away = part.X_WB.copy()
+                away[2, 3] -= FAR_AWAY * (index + 1)
+                cell = cell.with_part_at(index, away)
+        return cell
+
+    def _can_regrasp(self, index: int) -> bool:
+        """May the part be let go on its way from its start to its goal?"""
+        name, cell = self.cell_file.goals[index].part, self.cell_file.cell
+        others = [*cell.fixtures, *(part for part in cell.parts if part.name != name)]
+        goals = [goal for goal in self.cell_file.goals if goal.part == name]
+        return len(goals) > 1 or any(body.support for body in others)
 
     def ends(self, index: int) -> Iterator[tuple[str, np.ndarray]]:
         """Where the part of a goal must be held, whatever else is done: its start, its goal."""
@@ -113,3 +188,13 @@ def _too_far(part: str, end: str, lack: float) -> Proof:
     text = f"{part} is {1e3 * lack:.0f} mm beyond the arm's reach at the {end}, whatever the grasp"
     cause = Reason("out_of_reach", "reachable", text, end=end, by=lack, proved=True)
     return Proof(f"no grasp: {text}", cause)
+
+
+def _told(cause: _core.IllegalCause, hand: str) -> str:
+    share = f"{100 * cause.share:.0f} %"
+    if cause.kind == _core.IllegalKind.OutOfReach:
+        return f"{share} out of reach"
+    if cause.kind == _core.IllegalKind.JointLimit:
+        return f"{share} past a limit of joint {cause.joint + 1}"
+    mover = "hand" if cause.mover == hand else plain(cause.mover)
+    return f"{share} {mover} in {plain(cause.other)}"

@@ -56,6 +56,7 @@
 // cspace
 #include "handey/cspace/arm_table.hpp"
 #include "handey/cspace/cross_section.hpp"
+#include "handey/cspace/exhaustion.hpp"
 #include "handey/cspace/free_space.hpp"
 #include "handey/cspace/lattice.hpp"
 #include "handey/cspace/layer.hpp"
