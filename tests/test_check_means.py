@@ -100,7 +100,7 @@ def test_bounds_on_motion_hold(cell, valid):
     actors = [Actor(b.name, pieces_of(b.shapes), i) for i, b in enumerate(robot.bodies)]
     for a, b in ((0, 8), (2, 8), (7, 8), (3, 6), (1, 2)):
         job = Job(actors[a], actors[b], live, np.zeros(40), live)
-        bound = sweep._motion(samples, job)
+        bound = sweep.motion(samples, job)
         points = np.vstack([s.points() for s in robot.bodies[b].shapes])
         for k in range(40):
             s = np.linspace(0, 1, 21)[:, None]

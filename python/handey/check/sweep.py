@@ -135,7 +135,7 @@ class Sweep:
         serial = itertools.count()
         for job in jobs:
             if job.live.any():
-                wait(job, None, _rough(samples.frames, job), self._motion(samples, job))
+                wait(job, None, _rough(samples.frames, job), self.motion(samples, job))
         hits: list[Hit] = []
         while waiting:
             _, _, job, pair, bound, motion = heapq.heappop(waiting)
@@ -148,7 +148,7 @@ class Sweep:
                     wait(job, (i, j), finer, motion)
         return hits
 
-    def _motion(self, samples: Samples, job: Job) -> Array:
+    def motion(self, samples: Samples, job: Job) -> Array:
         """Bound on the motion of the two actors against each other, for every interval (n - 1,)."""
         paths: list[list[Joint]] = [
             [] if actor.body is None else self._paths[actor.body] for actor in (job.a, job.b)
@@ -248,7 +248,7 @@ class Sweep:
             job.a, job.b, np.array(cut[:-1]), job.tolerance[at[:-1]], job.clears[at[:-1]], job.ways
         )
         nothing = np.full(len(q), -math.inf)
-        fine_motion = np.where(fine_job.live, self._motion(finer, fine_job), 0.0)
+        fine_motion = np.where(fine_job.live, self.motion(finer, fine_job), 0.0)
         # Blocks are not neighbours: what was proven in one says nothing of the next.
         fine_motion[~fine_job.live] = 1e3
         return self._prove(finer, fine_job, pair, nothing, fine_motion, clearance)

@@ -17,13 +17,14 @@ from handey.check.collisions import Collisions
 from handey.check.kinematics import forward
 from handey.check.plan_data import PlanData, Step
 from handey.check.report import CheckReport
-from handey.check.solids import Engine, Placed
-from handey.check.sweep import HORIZON, Actor, Job, Samples, lower_bounds
+from handey.check.solids import Placed
+from handey.check.sweep import HORIZON, Actor, Job, Samples, Sweep, lower_bounds
 from handey.check.values import Array
 
 __all__ = ["ClearanceCurve", "clearance_along"]
 
 MOST_SAMPLES, EVERY = 150, 0.02  # of one step; between two samples [s]
+MANY, SLOW = 3000, 0.06  # triangles of a surface that takes long; between samples then [s]
 FINER = 40  # more about the least
 
 
@@ -50,7 +51,8 @@ def clearance_along(cell: Cell, plan: PlanData) -> ClearanceCurve | None:
         return None
     carries, world = find_carries(plan, cell)
     collisions = Collisions(cell, plan, carries, world, CheckReport())
-    times = [(step, _times(step)) for step in plan.steps]
+    every = SLOW if _is_slow(cell) else EVERY
+    times = [(step, _times(step, every)) for step in plan.steps]
     curve = _curve(cell, collisions, times)
     # Once more about the least, which is the figure that is told.
     at = float(curve.time[int(np.argmin(curve.distance))])
@@ -58,10 +60,16 @@ def clearance_along(cell: Cell, plan: PlanData) -> ClearanceCurve | None:
     return _merged(curve, _curve(cell, collisions, near))
 
 
-def _times(step: Step) -> Array:
+def _times(step: Step, every: float) -> Array:
     first, last = step.time[0], step.time[-1]
-    count = int(np.clip(np.ceil((last - first) / EVERY) + 1, 2, MOST_SAMPLES))
+    count = int(np.clip(np.ceil((last - first) / every) + 1, 2, MOST_SAMPLES))
     return np.linspace(first, last, count)
+
+
+def _is_slow(cell: Cell) -> bool:
+    """Does the cell have surfaces of so many triangles that an answer takes milliseconds?"""
+    bodies = [*cell.fixtures, *cell.parts]
+    return any(len(shape.faces) > MANY for body in bodies for shape in body.shapes)
 
 
 def _about(at: float, times: Array) -> Array:
@@ -83,7 +91,7 @@ def _merged(a: ClearanceCurve, b: ClearanceCurve) -> ClearanceCurve:
 
 def _curve(cell: Cell, collisions: Collisions, times: list[tuple[Step, Array]]) -> ClearanceCurve:
     samples = _samples(cell, times)
-    nearest = _Nearest(samples, collisions.engine)
+    nearest = _Nearest(samples, collisions.sweep)
     for job in collisions.jobs(samples):
         nearest.add(job)
     return nearest.curve()
@@ -103,42 +111,62 @@ def _samples(cell: Cell, times: list[tuple[Step, Array]]) -> Samples:
 
 
 class _Nearest:
-    """The nearest pair at each sample; the engine is asked only where bounds leave it open."""
+    """The nearest pair at each sample; the engine is asked only where bounds leave it open.
 
-    def __init__(self, samples: Samples, engine: Engine) -> None:
-        self.samples, self.engine = samples, engine
+    Bounds are from balls and boxes, and from the answer at an earlier sample less what the pair has
+    moved since.
+    """
+
+    def __init__(self, samples: Samples, sweep: Sweep) -> None:
+        self.samples, self.sweep = samples, sweep
         count = len(samples.step)
         self.least = np.full(count, HORIZON)
         self.between = np.full(count, -1)
         self.pairs: list[tuple[str, str]] = []
-        self._waiting: list[tuple[Job, int, int, Array]] = []
+        self._pieces: list[tuple[Job, int, int]] = []
+        self._bounds: list[Array] = []
+        self._along: list[Array] = []  # by pair of pieces, motion up to each sample [m]
 
     def add(self, job: Job) -> None:
         """A pair of bodies, where it counts."""
         counts = job.live & job.clears
-        for i, j, bound in lower_bounds(self.samples.frames, job, counts, HORIZON):
-            self._waiting.append((job, i, j, np.where(counts, bound[:-1], np.inf)))
+        found = lower_bounds(self.samples.frames, job, counts, HORIZON)
+        if not found:
+            return
+        along = np.concatenate([[0.0], np.cumsum(self.sweep.motion(self.samples, job)[:-1])])
+        for i, j, bound in found:
+            self._pieces.append((job, i, j))
+            self._bounds.append(np.where(counts, bound[:-1], np.inf))
+            self._along.append(along)
 
     def curve(self) -> ClearanceCurve:
         """Asks, the nearest bounds first."""
-        if self._waiting:
-            bounds = np.array([bound for *_, bound in self._waiting])
-            order = np.argsort(bounds, axis=0)
-            for k in range(bounds.shape[1]):
-                for which in order[:, k]:
-                    if bounds[which, k] >= self.least[k]:
-                        break
-                    self._ask(k, *self._waiting[which][:3])
+        if self._pieces:
+            self._ask_all(np.array(self._bounds), np.array(self._along))
         return ClearanceCurve(self.samples.time[:-1], self.least, self.between, self.pairs)
 
-    def _ask(self, k: int, job: Job, i: int, j: int) -> None:
-        a, b = self._placed(job.a, i, k), self._placed(job.b, j, k)
-        found = 0.0 if self.engine.contains(a, b) else max(self.engine.distance(a, b), 0.0)
-        if found < self.least[k]:
-            names = (job.a.name, job.b.name)
-            if names not in self.pairs:
-                self.pairs.append(names)
-            self.least[k], self.between[k] = found, self.pairs.index(names)
+    def _ask_all(self, bounds: Array, along: Array) -> None:
+        known = np.full(len(bounds), -np.inf)  # answer, plus the motion up to there
+        for k in range(bounds.shape[1]):
+            here = np.maximum(bounds[:, k], known - along[:, k])
+            for which in np.argsort(here, kind="stable"):
+                if here[which] >= self.least[k]:
+                    break
+                job, i, j = self._pieces[which]
+                found = self._distance(k, job, i, j)
+                known[which] = found + along[which, k]
+                if found < self.least[k]:
+                    self.least[k], self.between[k] = found, self._pair(job)
+
+    def _pair(self, job: Job) -> int:
+        names = (job.a.name, job.b.name)
+        if names not in self.pairs:
+            self.pairs.append(names)
+        return self.pairs.index(names)
+
+    def _distance(self, k: int, job: Job, i: int, j: int) -> float:
+        a, b, engine = self._placed(job.a, i, k), self._placed(job.b, j, k), self.sweep.engine
+        return 0.0 if engine.contains(a, b) else max(engine.distance(a, b), 0.0)
 
     def _placed(self, actor: Actor, piece: int, k: int) -> Placed:
         R, p = actor.poses(self.samples.frames)
