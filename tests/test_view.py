@@ -206,6 +206,26 @@ def test_the_curve_leads_to_the_least_clearance(browser, demo):
 
 
 @needs_browser
+@pytest.mark.parametrize(("width", "height"), [(400, 800), (1000, 700), (1280, 800)])
+def test_nothing_overlaps_with_all_that_can_be_shown(browser, demo, width, height):
+    screen(browser, width, height)
+    try:
+        opened(browser, demo / "page.html")
+        for key in ("y", "n"):
+            browser.execute_script(
+                "dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0]}))", key
+            )
+            time.sleep(0.3)
+        assert browser.find_element("id", "picked").is_displayed()
+        assert words(browser, "pickedStage") == "the grasp of the plan"
+        pieces = "#head > *, #tools button, #joints, #tried > *, #bar, #clearance > *, #line"
+        assert overlapping(browser, pieces) == []
+        assert severe(browser) == []
+    finally:
+        no_screen(browser)
+
+
+@needs_browser
 def test_the_hand_follows_the_time_line_in_the_grasp_plane(browser, demo):
     screen(browser, 1280, 800)
     try:

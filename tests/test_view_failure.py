@@ -25,6 +25,7 @@ from told_reports import HIT, LIMIT, STALLED, failure
 
 from handey.cli import main
 from handey.errors import InvalidInput
+from handey.report import GoalReport
 from handey.report_file import read_report_file, write_report
 from handey.view import write_page
 
@@ -183,6 +184,24 @@ def test_nothing_overlaps(browser, made, width, height):
         assert severe(browser) == []
     finally:
         no_screen(browser)
+
+
+def test_a_robot_that_is_not_planned_for_is_shown_with_the_reason(tmp_path):
+    cell = write_cell(tmp_path)
+    notes = ["No planning for this robot: needs a spherical wrist"]
+    write_page(cell, None, tmp_path / "page.html", None, notes)
+    text = (tmp_path / "page.html").read_text().split("<script")[0]
+    assert f'<p class="warning">{notes[0]}</p>' in text and "<canvas" in text
+
+
+def test_the_goal_that_failed_comes_first(tmp_path):
+    cell = write_cell(tmp_path)
+    report = failure()
+    report.goals.insert(0, GoalReport(0, "bystander somewhere", "planned", grasp="faces 0/1"))
+    report.goals[1].goal = 1
+    write_page(cell, None, tmp_path / "page.html", report)
+    text = (tmp_path / "page.html").read_text()
+    assert text.index("Goal 1: place block") < text.index("Goal 0: bystander")
 
 
 @pytest.mark.parametrize("fail", [True, False])

@@ -39,7 +39,8 @@ def serve(options: argparse.Namespace) -> int:
     try:
         version = server.next_version()
         server.show(words_page(cell.name, "Planning\u2026", [], version), version)
-        print(f"page: {server.address} (Ctrl-C ends)", flush=True)
+        if not options.quiet:
+            print(f"page: {server.address} (Ctrl-C ends)", flush=True)
         watch = Watch(cell, *([Path(options.plan)] if options.plan else []))
         while True:
             if watch.changed():

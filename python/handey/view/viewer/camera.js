@@ -1,4 +1,5 @@
 // Where the picture is seen from.
+const failed = document.body.classList.contains("failed");
 const camera = { turn: 0, tilt: 0, distance: 1, target: [0, 0, 0] };
 const FOV = 0.65;
 // What a framed picture must hold: everything that happens, or (close) only where hand and parts work.
@@ -37,8 +38,9 @@ const isHidden = (eye, p) => screens.some(({ low, high, into }) => {
   return from < to;
 });
 const openSide = (heading) => {
-  const places = scene.report.flatMap((goal) => [goal.origin, goal.destination].filter((X) => X && goal.tried.length)
-    .flatMap((X) => goal.tried.map((pose) => at(mul(X, pose.at), [0, 0, -0.05]))));
+  const places = failed ? scene.report.filter((goal) => goal.status !== "planned").flatMap((goal) =>
+    [goal.origin, goal.destination].filter((X) => X).flatMap((X) => goal.tried.length
+      ? goal.tried.map((pose) => at(mul(X, pose.at), [0, 0, -0.05])) : [at(X, [0, 0, 0])])) : [];
   const sides = [0.62, -0.62, 1.2, -1.2, 0.2, 2.2, -2.2].map((offset) => {
     const eye = add(work.centre, [Math.cos(heading + offset), Math.sin(heading + offset), 0.42], 2.5 * work.radius);
     return { offset, count: places.filter((p) => isHidden(eye, p)).length };

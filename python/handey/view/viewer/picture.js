@@ -1,7 +1,6 @@
 // One picture: shadow map, bodies, edges, goals, trace.
 let seenBy = IDENTITY;
 let now = 0, playing = false, asked = false;
-const failed = document.body.classList.contains("failed");
 const shown = { trace: true, goals: true, labels: true, joints: innerWidth > 640 && !failed, grasp: true, tried: failed };
 const draw = () => { if (!asked) { asked = true; requestAnimationFrame(paint); } };
 const sun = (() => {  // from the front, beside the first view, so that the sides seen are lit
@@ -44,7 +43,12 @@ const paint = (stamp) => {
   scene.parts.forEach((part, i) => items.push({
     name: part.name, shapes: part.shapes, pose: parts[i], colour: rgb(partColour(i)), glow: step && step.held === part.name ? 0.25 : 0,
   }));
-  for (const item of items) if (marked.has(item.name)) { item.colour = rgb(MARKED); item.glow = 0.3; }
+  for (const item of items) {  // what the parts stand on is tinged only: it is large, and behind all
+    if (!marked.has(item.name)) continue;
+    const red = rgb(MARKED), share = item.support ? 0.22 : 1;
+    item.colour = item.colour.map((c, k) => c * (1 - share) + red[k] * share);
+    item.glow = item.support ? 0 : 0.3;
+  }
 
   gl.enable(gl.DEPTH_TEST);
   gl.enable(gl.POLYGON_OFFSET_FILL);
@@ -73,7 +77,7 @@ const paint = (stamp) => {
   gl.bindTexture(gl.TEXTURE_2D, shadowMap);
   gl.polygonOffset(1, 1);
   // What is marked lets see the hand poses behind it.
-  const seenThrough = items.filter((item) => shown.tried && marked.has(item.name));
+  const seenThrough = items.filter((item) => shown.tried && marked.has(item.name) && !item.support);
   const drawSolid = (item) => {
     gl.uniform3fv(solid.uniforms.colour, item.colour);
     gl.uniform1f(solid.uniforms.glow, item.glow || 0);
