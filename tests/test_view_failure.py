@@ -194,6 +194,12 @@ def test_a_robot_that_is_not_planned_for_is_shown_with_the_reason(tmp_path):
     assert f'<p class="warning">{notes[0]}</p>' in text and "<canvas" in text
 
 
+def test_a_report_of_another_cell_is_told_of(made, tmp_path):
+    write_page(write_cell(tmp_path, name="other"), made / "report.json", tmp_path / "page.html")
+    assert "This report is of the cell no way." in (tmp_path / "page.html").read_text()
+    assert "This report is of the cell" not in (made / "page.html").read_text()
+
+
 def test_the_goal_that_failed_comes_first(tmp_path):
     cell = write_cell(tmp_path)
     report = failure()

@@ -6,7 +6,6 @@ the tables tell the same without a picture.
 
 from __future__ import annotations
 
-import base64
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -20,11 +19,11 @@ from handey.inspection.part import FaceFigures, PartReport
 from handey.inspection.reach import COARSE, POINTINGS, Reach
 from handey.inspection.robot import RobotReport
 from handey.marks import Cells, Paint
+from handey.page_meshes import creases, matrix, packed, unit_normals
 from handey.task import PlaceAt
 
 __all__ = ["MOST_PAIRS", "MOST_RESTS", "cell_scene", "part_scene", "reach_figure", "robot_scene"]
 
-CREASE = np.cos(np.radians(30.0))  # sharper edges are drawn
 SAME_NORMAL, SAME_PLANE = 1e-5, 2e-5  # a triangle lies on a face; [-], [m]
 MOST_TRIANGLES = 400_000  # Choice: some 10 MB of page
 MOST_PAIRS, MOST_RESTS = 200, 24  # Choice: more are in the JSON
@@ -51,8 +50,8 @@ class _Meshes:
         self._triangles += len(triangles)
         if self._triangles > MOST_TRIANGLES or not len(triangles):
             return
-        edges = _creases(vertices, triangles) if creased else np.zeros((0, 2))
-        body = {"name": name, "mesh": len(self.list), "pose": _matrix(pose), "colour": colour}
+        edges = creases(vertices, triangles) if creased else np.zeros((0, 2))
+        body = {"name": name, "mesh": len(self.list), "pose": matrix(pose), "colour": colour}
         self.bodies.append(body | {"ghost": colour == FIXTURE})
         self.list.append(
             {"v": packed(vertices, "<f4"), "f": packed(triangles, "<u4"), "e": packed(edges, "<u4")}
@@ -72,37 +71,6 @@ class _Meshes:
             "radius": radius,
             "turn": turn,
         }
-
-
-def packed(array: np.ndarray, kind: str) -> str:
-    """An array as base64."""
-    return base64.b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")
-
-
-def _matrix(matrix: np.ndarray) -> list[float]:
-    """Column by column, as WebGL has it."""
-    return [round(float(x), 9) for x in np.asarray(matrix).T.ravel()]
-
-
-def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    a, b, c = (vertices[triangles[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.asarray(normals / np.where(lengths > 0, lengths, 1.0))
-
-
-def _creases(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Edges where the surface bends sharply, or ends (k, 2)."""
-    normals = _normals(vertices, triangles)
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    owner = np.repeat(np.arange(len(triangles)), 3)
-    unique, index = np.unique(edges, axis=0, return_inverse=True)
-    index = index.reshape(-1)
-    order, count = np.argsort(index, kind="stable"), np.bincount(index)
-    first = np.concatenate([[0], np.cumsum(count)[:-1]])
-    a, b = owner[order[first]], owner[order[np.minimum(first + 1, len(order) - 1)]]
-    bend = np.einsum("ij,ij->i", normals[a], normals[b]) < CREASE
-    return np.asarray(unique[(count != 2) | bend])
 
 
 # -------------------------------------------------------------------------------------------- part
@@ -130,7 +98,7 @@ def _owners(
     vertices: np.ndarray, triangles: np.ndarray, faces: Sequence[FaceFigures]
 ) -> np.ndarray:
     """Index of the face on which each triangle lies, or -1."""
-    normals, centres = _normals(vertices, triangles), vertices[triangles].mean(axis=1)
+    normals, centres = unit_normals(vertices, triangles), vertices[triangles].mean(axis=1)
     owner = np.full(len(triangles), -1)
     for index, face in enumerate(faces):
         on = (normals @ face.normal > 1 - SAME_NORMAL) & (owner < 0)
@@ -191,7 +159,7 @@ def _rest(rest: _core.RestingPose) -> dict[str, Any]:
     foot = np.asarray(rest.footprint)
     closed = np.vstack([foot, foot[:1]]) if len(foot) else foot.reshape(0, 2)
     return {
-        "pose": _matrix(np.asarray(rest.X_SP)),
+        "pose": matrix(np.asarray(rest.X_SP)),
         "top": rest.top,
         "foot": np.column_stack([closed, np.zeros(len(closed))]).tolist(),
     }
@@ -275,7 +243,7 @@ def _goals(report: CellReport) -> list[dict[str, Any]]:
         for shape in report.file.cell.parts[part].shapes:
             vertices, triangles = _triangles(shape)
             placed = vertices @ goal.X_WP[:3, :3].T + goal.X_WP[:3, 3]
-            lines += placed[_creases(vertices, triangles)].tolist()
+            lines += placed[creases(vertices, triangles)].tolist()
         colour = PARTS[part % len(PARTS)]
         drawn.append({"goal": index, "colour": colour, "lines": lines[:MOST_LINES]})
     return drawn

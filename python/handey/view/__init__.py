@@ -82,7 +82,10 @@ def _read(
     given = source if isinstance(source, Mapping) else Path(source)
     content, name = load_json(given)
     if isinstance(given, Path) and is_report(content):
-        return None, read_report_file(given)
+        told = read_report_file(given)
+        if content.get("cell") not in (None, cell.name):
+            told.notes.append(f"This report is of the cell {content['cell']}.")
+        return None, told
     report = CheckReport()
     data = read_plan(content, cell, report)
     if data is None:

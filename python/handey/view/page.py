@@ -24,6 +24,7 @@ SCRIPTS = (
     "algebra",
     "scene",
     "webgl",
+    "lines",
     "places",
     "camera",
     "tried",

@@ -6,7 +6,6 @@ the robot is moved by its own kinematics, so the page shows what the plan says, 
 
 from __future__ import annotations
 
-import base64
 from typing import Any
 
 import numpy as np
@@ -14,18 +13,17 @@ import numpy as np
 from handey.check.carries import find_carries
 from handey.check.cell import Body, Cell
 from handey.check.plan_data import PlanData
-from handey.check.planar import unit_normals
 from handey.check.robot import Robot
 from handey.check.shapes import Shape
 from handey.check.values import Array
+from handey.page_meshes import creases, matrix, packed
 from handey.reasons import STAGES, Tried
 from handey.report import GoalReport
 from handey.report_file import ToldReport
 from handey.view.clearance import ClearanceCurve
 
-__all__ = ["cell_scene", "clearance_scene", "ends_of", "packed", "tried_scene"]
+__all__ = ["cell_scene", "clearance_scene", "ends_of", "tried_scene"]
 
-CREASE = np.radians(30.0)  # sharper edges are drawn
 MOST_TRIANGLES = 200_000  # of pictures; above that the collision shapes are shown
 MOST_TRIED = 1200  # Choice: of one goal; more cannot be told apart
 
@@ -43,34 +41,12 @@ class _Meshes:
         if key not in self._known:
             self._known[key] = len(self.list)
             # The steps between columns would blacken a measured solid.
-            creases = np.zeros((0, 2)) if shape.is_measured else _creases(shape)
-            edges = np.asarray(creases, "<u4")
-            self.list.append({"v": packed(vertices), "f": packed(faces), "e": packed(edges)})
+            bare = shape.is_measured
+            edges = np.zeros((0, 2)) if bare else creases(shape.vertices, shape.faces)
+            self.list.append(
+                {"v": packed(vertices, "<f4"), "f": packed(faces, "<u4"), "e": packed(edges, "<u4")}
+            )
         return self._known[key]
-
-
-def packed(array: np.ndarray) -> str:
-    """An array as base64."""
-    return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode("ascii")
-
-
-def _creases(shape: Shape) -> np.ndarray:
-    """Edges where the surface bends sharply, or ends (k, 2)."""
-    normals = unit_normals(shape.vertices[shape.faces])
-    edges = shape.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    owner = np.repeat(np.arange(len(shape.faces)), 3)
-    unique, index = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
-    order = np.argsort(index.reshape(-1), kind="stable")
-    count = np.bincount(index.reshape(-1))
-    first = np.concatenate([[0], np.cumsum(count)[:-1]])
-    a, b = owner[order[first]], owner[order[np.minimum(first + 1, len(order) - 1)]]
-    bend = np.einsum("ij,ij->i", normals[a], normals[b]) < np.cos(CREASE)
-    return np.asarray(unique[(count != 2) | bend])
-
-
-def _matrix(matrix: Array) -> list[float]:
-    """Column by column, as WebGL has it."""
-    return [round(float(x), 9) for x in matrix.T.ravel()]
 
 
 def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
@@ -79,12 +55,12 @@ def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
 
     def shapes(items: list[Shape]) -> list[dict[str, Any]]:
         return [
-            {"mesh": meshes.add(shape.picture or shape), "pose": _matrix(shape.pose)}
+            {"mesh": meshes.add(shape.picture or shape), "pose": matrix(shape.pose)}
             for shape in items
         ]
 
     def body(item: Body) -> dict[str, Any]:
-        return {"name": item.name, "pose": _matrix(item.pose), "shapes": shapes(item.shapes)}
+        return {"name": item.name, "pose": matrix(item.pose), "shapes": shapes(item.shapes)}
 
     robot = cell.robot
     joints = [*robot.joints, *robot.fingers]
@@ -93,12 +69,12 @@ def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
         "name": cell.name,
         "robot": {
             "name": robot.name,
-            "base": _matrix(cell.base),
+            "base": matrix(cell.base),
             "bodies": [{"name": b.name, "shapes": shapes(s)} for b, s in _pictures(robot)],
             "joints": [
                 {
                     "name": j.name, "parent": j.parent, "child": j.child,
-                    "origin": _matrix(j.origin),
+                    "origin": matrix(j.origin),
                     "axis": j.axis.tolist(), "slides": j.prismatic, "index": arm.get(j.name, -1),
                     "limits": [x if np.isfinite(x) else None for x in (j.lower, j.upper)],
                 }
@@ -107,7 +83,7 @@ def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
             "arm": robot.joint_names(),
             "fingers": [finger.child for finger in robot.fingers],
             "hand": robot.hand,
-            "grasp": _matrix(robot.grasp_frame),
+            "grasp": matrix(robot.grasp_frame),
             "opening": list(robot.opening),
             "pad": list(robot.pad),
         },
@@ -115,7 +91,7 @@ def cell_scene(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
         "parts": [body(item) for item in cell.parts],
         "goals": [
             {
-                "part": g.part, "at": None if g.at is None else _matrix(g.at),
+                "part": g.part, "at": None if g.at is None else matrix(g.at),
                 "on": g.on, "inside": g.inside,
             }
             for g in cell.task
@@ -136,19 +112,19 @@ def _pictures(robot: Robot) -> list[tuple[Any, list[Shape]]]:
 def _motion(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
     """The rows of all steps, and where every part is in each step."""
     if plan is None or not plan.steps:
-        start = {part.name: _matrix(part.pose) for part in cell.parts}
+        start = {part.name: matrix(part.pose) for part in cell.parts}
         rows = np.concatenate([cell.start, [cell.start_opening]])
         note = "no plan" if plan is None else "every goal is met: nothing to do"
         return {
-            "note": note, "steps": [], "start": start, "time": packed(np.zeros(1, "<f8")),
-            "rows": packed(rows.astype("<f4")),
+            "note": note, "steps": [], "start": start, "time": packed(np.zeros(1), "<f8"),
+            "rows": packed(rows, "<f4"),
         }  # fmt: skip
     _, world = find_carries(plan, cell)
     steps, row = [], 0
     for step in plan.steps:
-        parts = {name: _matrix(pose) for name, pose in world.standing[step.index].items()}
+        parts = {name: matrix(pose) for name, pose in world.standing[step.index].items()}
         held = step.part if step.part is not None and step.part not in parts else None
-        grip = None if held is None or step.X_HP is None else _matrix(step.X_HP)
+        grip = None if held is None or step.X_HP is None else matrix(step.X_HP)
         steps.append(
             {
                 "action": step.action, "goal": step.goal, "held": held, "grip": grip,
@@ -160,17 +136,17 @@ def _motion(cell: Cell, plan: PlanData | None) -> dict[str, Any]:
     rows = np.vstack([np.c_[step.q, step.opening] for step in plan.steps])
     time = np.concatenate([step.time for step in plan.steps])
     return {
-        "note": "", "steps": steps, "start": {part.name: _matrix(part.pose) for part in cell.parts},
-        "time": packed(time.astype("<f8")), "rows": packed(rows.astype("<f4")),
+        "note": "", "steps": steps, "start": {part.name: matrix(part.pose) for part in cell.parts},
+        "time": packed(time, "<f8"), "rows": packed(rows, "<f4"),
     }  # fmt: skip
 
 
 def clearance_scene(curve: ClearanceCurve) -> dict[str, Any]:
     """The curve of clearance; its times and distances are packed."""
     return {
-        "time": packed(curve.time.astype("<f4")),
-        "distance": packed(curve.distance.astype("<f4")),
-        "between": packed(curve.between.astype("<i2")),
+        "time": packed(curve.time, "<f4"),
+        "distance": packed(curve.distance, "<f4"),
+        "between": packed(curve.between, "<i2"),
         "pairs": [list(pair) for pair in curve.pairs],
     }
 
@@ -192,8 +168,8 @@ def tried_scene(cell: Cell, plan: PlanData | None, report: ToldReport) -> list[d
                 "goal": goal.goal,
                 "part": part,
                 "status": goal.status,
-                "origin": _matrix(origin),
-                "destination": None if destination is None else _matrix(destination),
+                "origin": matrix(origin),
+                "destination": None if destination is None else matrix(destination),
                 "tried": [_tried(tried, texts) for tried in _some(goal.tried)],
                 "texts": list(texts),
             }

@@ -20,7 +20,7 @@ __all__ = ["STAGE_WORDS", "told"]
 
 VERDICTS = {
     "plan": ("Planned", ""),
-    "infeasible": ("No plan", "it is certain that there is none"),
+    "infeasible": ("No plan", "there is none: the proof is below"),
     "unknown": ("No plan found", "there may be one"),
 }
 STAGE_WORDS = {
@@ -81,7 +81,7 @@ def _goal(goal: GoalReport, several: bool, is_open: bool, plane: str) -> str:
     title = f"Goal {goal.goal}: {goal.text}" if several else goal.text
     content = [
         *_cause(goal),
-        *_proof(goal),
+        f'<p class="proof"><b>Proof:</b> {_text(_sentence(goal.proof))}</p>' if goal.proof else "",
         *_planned(goal),
         *_funnel(goal),
         *_advice(goal.advice),
@@ -108,12 +108,6 @@ def _cause(goal: GoalReport) -> list[str]:
         f'<p class="cause"><button type="button" class="why" aria-pressed="false" data-cause="1" '
         f"{_shown(goal.goal, goal.cause)}>{_text(words)}</button></p>"
     ]
-
-
-def _proof(goal: GoalReport) -> list[str]:
-    """Unless the cause has said it."""
-    is_told = goal.cause is not None and goal.cause.text in goal.proof
-    return [f'<p class="proof">{_text(goal.proof)}</p>'] if goal.proof and not is_told else []
 
 
 def _sentence(words: str) -> str:

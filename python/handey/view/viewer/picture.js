@@ -13,15 +13,27 @@ const lightView = (() => {  // orthographic, around everything
     -dot(right, c) / r, -dot(up, c) / r, dot(sun, c) / r, 1];
 })();
 
-const drawShapes = (kind, shapes, pose, program) => {
+const drawFaces = (shapes, pose, program) => {
   for (const shape of shapes) {
     const mesh = meshes[shape.mesh];
     gl.uniformMatrix4fv(program.uniforms.model, false, mul(pose, shape.pose));
-    gl.bindVertexArray(mesh[kind + "Array"]);
-    gl.drawElements(kind === "faces" ? gl.TRIANGLES : gl.LINES, mesh[kind].length, gl.UNSIGNED_INT, 0);
+    gl.bindVertexArray(mesh.facesArray);
+    gl.drawElements(gl.TRIANGLES, mesh.faces.length, gl.UNSIGNED_INT, 0);
   }
 };
+const spotPoint = triangles([0, 0, 0]);
 
+const drawSpot = (view, place, colour, size) => {
+  gl.bindBuffer(gl.ARRAY_BUFFER, spotPoint.points);
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(place), gl.DYNAMIC_DRAW);
+  gl.useProgram(spot.program);
+  gl.uniformMatrix4fv(spot.uniforms.eye, false, view);
+  gl.uniform3fv(spot.uniforms.colour, colour);
+  gl.uniform1f(spot.uniforms.size, size);
+  gl.bindVertexArray(spotPoint.array);
+  gl.disable(gl.DEPTH_TEST);
+  gl.drawArrays(gl.POINTS, 0, 1);
+};
 let last = 0;
 const paint = (stamp) => {
   asked = false;
@@ -58,7 +70,7 @@ const paint = (stamp) => {
   gl.useProgram(flat.program);
   gl.uniformMatrix4fv(flat.uniforms.eye, false, lightView);
   gl.polygonOffset(2, 4);
-  for (const item of items) drawShapes("faces", item.shapes, item.pose, flat);
+  for (const item of items) drawFaces(item.shapes, item.pose, flat);
 
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.viewport(0, 0, w, h);
@@ -81,7 +93,7 @@ const paint = (stamp) => {
   const drawSolid = (item) => {
     gl.uniform3fv(solid.uniforms.colour, item.colour);
     gl.uniform1f(solid.uniforms.glow, item.glow || 0);
-    drawShapes("faces", item.shapes, item.pose, solid);
+    drawFaces(item.shapes, item.pose, solid);
   };
   for (const item of items) if (!seenThrough.includes(item)) drawSolid(item);
   if (shown.tried) drawTried();
@@ -92,27 +104,17 @@ const paint = (stamp) => {
   gl.depthMask(false);
   for (const item of seenThrough) drawSolid(item);
   gl.depthMask(true);
-  gl.useProgram(flat.program);
-  gl.uniformMatrix4fv(flat.uniforms.eye, false, view);
-  gl.uniform4fv(flat.uniforms.paint, colours.edge);
-  for (const item of items) drawShapes("edges", item.shapes, item.pose, flat);
+  beginLines(view, w, h);
+  for (const item of items) drawEdges(item.shapes, item.pose, colours.edge, ratio);
   if (shown.goals) {
     for (const goal of goalPoses) {
-      gl.uniform4fv(flat.uniforms.paint, [...rgb(partColour(goal.part)), 1]);
-      drawShapes("edges", scene.parts[goal.part].shapes, goal.pose, flat);
+      drawEdges(scene.parts[goal.part].shapes, goal.pose, [...rgb(partColour(goal.part)), 1], 1.6 * ratio);
     }
   }
-  gl.useProgram(tinted.program);
-  gl.uniformMatrix4fv(tinted.uniforms.eye, false, view);
-  gl.bindVertexArray(grid.array);
-  gl.drawArrays(gl.LINES, 0, grid.count);
-  if (shown.trace && traceLine) {
-    gl.bindVertexArray(traceLine.array);
-    gl.drawArrays(gl.LINE_STRIP, 0, traceLine.count);
-    gl.disable(gl.DEPTH_TEST);
-    gl.drawArrays(gl.POINTS, Math.max(tracePoints.findIndex((t) => t >= now), 0), 1);
-  }
-  if (shown.grasp) drawFrames(handAt(poses), row[width - 1]);
+  drawLines(grid, ratio);
+  if (shown.trace && traceLine) drawLines(traceLine, 1.8 * ratio);
+  if (shown.grasp) drawFrames(handAt(poses), row[width - 1], 2 * ratio);
+  if (shown.trace && traceLine) drawSpot(view, handAt(poses).slice(12, 15), rgb(ACTIONS[step.action]), 8 * ratio);
   gl.disable(gl.BLEND);
   seenBy = view;
   labels(view, parts, canvas.clientWidth, canvas.clientHeight);

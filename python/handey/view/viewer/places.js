@@ -31,7 +31,7 @@ if (!still) {
     }
   }
 }
-const traceLine = trace.length ? coloured(trace) : null;
+const traceLine = trace.length ? coloured(trace, true) : null;
 const grid = (() => {
   const lines = [], z = everything.low[2] - 0.002, [x, y] = [Math.round(everything.centre[0] * 5) / 5, Math.round(everything.centre[1] * 5) / 5];
   const [r, g, b, a] = theme().grid, n = 15;

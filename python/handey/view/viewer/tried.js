@@ -64,10 +64,10 @@ const drawGhosts = () => {
     gl.uniform1f(solid.uniforms.alpha, 0.55);
     gl.uniform1f(solid.uniforms.glow, 0.2);
     gl.uniform3fv(solid.uniforms.colour, rgb(STAGES[pose.stage]));
-    for (const [body, X_WB] of handBodiesAt(X_WH, openingOf(pose))) drawShapes("faces", scene.robot.bodies[body].shapes, X_WB, solid);
+    for (const [body, X_WB] of handBodiesAt(X_WH, openingOf(pose))) drawFaces(scene.robot.bodies[body].shapes, X_WB, solid);
     gl.uniform1f(solid.uniforms.alpha, 0.35);
     gl.uniform3fv(solid.uniforms.colour, rgb(partColour(goal.part)));
-    if (X_WP === goal.destination) drawShapes("faces", scene.parts[goal.part].shapes, X_WP, solid);
+    if (X_WP === goal.destination) drawFaces(scene.parts[goal.part].shapes, X_WP, solid);
   }
 };
 
@@ -84,14 +84,13 @@ const frameOf = (X_WH, opening, list, length = 0.05) => {
     p.forEach((a, i) => line(a, p[(i + 1) % 4], ink));
   }
 };
-const drawFrames = (X_WH, opening) => {
+const drawFrames = (X_WH, opening, width) => {
   const list = [], ghosts = shown.tried ? ghostPlaces() : [];
   if (ghosts.length) for (const place of ghosts) frameOf(place.X_WH, openingOf(place.pose), list);
   else frameOf(X_WH, opening, list);
   recoloured(frameLines, list);
   gl.disable(gl.DEPTH_TEST);
-  gl.bindVertexArray(frameLines.array);
-  gl.drawArrays(gl.LINES, 0, frameLines.count);
+  drawLines(frameLines, width);
 };
 
 // ---- which one is meant by a click

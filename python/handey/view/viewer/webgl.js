@@ -1,4 +1,4 @@
-// Drawing with WebGL 2: flat-shaded triangles, one light with a shadow map, crease edges.
+// Drawing with WebGL 2: flat-shaded triangles, one light with a shadow map.
 const canvas = $("view");
 const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
 if (!gl) {  // what is told can be read all the same
@@ -7,7 +7,7 @@ if (!gl) {  // what is told can be read all the same
   return;
 }
 const SHADOW = 2048;
-const compile = (vertex, fragment) => {
+const compile = (vertex, fragment, places = ["point", "tint"]) => {
   const program = gl.createProgram();
   for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
@@ -16,8 +16,7 @@ const compile = (vertex, fragment) => {
     if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
     gl.attachShader(program, shader);
   }
-  gl.bindAttribLocation(program, 0, "point");
-  gl.bindAttribLocation(program, 1, "tint");
+  places.forEach((name, place) => gl.bindAttribLocation(program, place, name));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
   const uniforms = {};
@@ -48,10 +47,10 @@ const solid = compile(
    }`);
 const flat = compile(
   `in vec3 point; uniform mat4 model, eye; void main() { gl_Position = eye * model * vec4(point, 1.0); }`,
-  `uniform vec4 paint; out vec4 result; void main() { result = paint; }`);
-const tinted = compile(
-  `in vec3 point; in vec4 tint; uniform mat4 eye; out vec4 paint; void main() { paint = tint; gl_Position = eye * vec4(point, 1.0); gl_PointSize = 7.0; }`,
-  `in vec4 paint; out vec4 result; void main() { result = paint; }`);
+  `out vec4 result; void main() { result = vec4(0.0); }`);
+const spot = compile(
+  `in vec3 point; uniform mat4 eye; uniform float size; void main() { gl_Position = eye * vec4(point, 1.0); gl_PointSize = size; }`,
+  `uniform vec3 colour; out vec4 result; void main() { if (length(gl_PointCoord - 0.5) > 0.5) discard; result = vec4(colour, 1.0); }`);
 
 const buffer = (kind, data) => {
   const b = gl.createBuffer();
@@ -60,31 +59,13 @@ const buffer = (kind, data) => {
   return b;
 };
 for (const mesh of meshes) {
-  const points = buffer(gl.ARRAY_BUFFER, mesh.points);
-  for (const key of ["faces", "edges"]) {
-    mesh[key + "Array"] = gl.createVertexArray();
-    gl.bindVertexArray(mesh[key + "Array"]);
-    gl.bindBuffer(gl.ARRAY_BUFFER, points);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
-    buffer(gl.ELEMENT_ARRAY_BUFFER, mesh[key]);
-  }
-}
-const coloured = (data) => {  // points (x, y, z, r, g, b, a)
-  const array = gl.createVertexArray();
-  gl.bindVertexArray(array);
-  const points = buffer(gl.ARRAY_BUFFER, new Float32Array(data));
+  mesh.facesArray = gl.createVertexArray();
+  gl.bindVertexArray(mesh.facesArray);
+  buffer(gl.ARRAY_BUFFER, mesh.points);
   gl.enableVertexAttribArray(0);
-  gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 28, 0);
-  gl.enableVertexAttribArray(1);
-  gl.vertexAttribPointer(1, 4, gl.FLOAT, false, 28, 12);
-  return { array, points, count: data.length / 7 };
-};
-const recoloured = (made, data) => {
-  gl.bindBuffer(gl.ARRAY_BUFFER, made.points);
-  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
-  made.count = data.length / 7;
-};
+  gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+  buffer(gl.ELEMENT_ARRAY_BUFFER, mesh.faces);
+}
 const triangles = (points) => {  // of places alone, three by three
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
