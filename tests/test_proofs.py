@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import hard_cells
 import pytest
 import solvable_cells
 import yaml
@@ -169,3 +170,41 @@ def test_nothing_is_proved_of_random_cells_that_have_a_plan(tmp_path: Path) -> N
     outcomes = [solvable_cells.look(path) for path in solvable_cells.cells(3, 20, tmp_path)]
     assert [outcome for outcome in outcomes if outcome.is_false] == []
     assert sum(outcome.verdict == "unknown" for outcome in outcomes) >= 5
+
+
+CAGED = [-0.021, 1.269, -1.091, 2.234, -0.729, -2.159]  # folded above the base
+
+
+def test_an_arm_in_a_cage_is_proved_walled_off_by_name(tmp_path: Path) -> None:
+    shapes = [{"box": [0.04, 0.72, 2.2], "pose": {"xyz": [s * 0.34, 0, 1.1]}} for s in (-1, 1)]
+    shapes += [{"box": [0.72, 0.04, 2.2], "pose": {"xyz": [0, s * 0.34, 1.1]}} for s in (-1, 1)]
+    path = cell(
+        tmp_path,
+        robot={"file": str(ROBOT), "start": CAGED},
+        fixtures={"cage": {"shapes": shapes}, "table": TABLE},
+        parts={"block": block(0.75, 0.1)},
+        task=[{"place": "block", "at": {"xyz": [0.7, -0.2, 0.025]}}],
+    )
+    report = failed(path).report
+    assert report.verdict == "infeasible"
+    goal = report.goals[0]
+    assert "walled off" in goal.proof and "cage" in goal.proof
+    assert goal.cause is not None and goal.cause.bodies == ("cage",) and goal.cause.proved
+
+
+def test_what_is_not_proved_tells_what_was_covered() -> None:
+    result = handey.plan(
+        handey.load_cell(CELLS / "impossible_tetrahedron.yaml"), handey.PlanOptions(advice=False)
+    )
+    goal = result.report.goals[0]
+    assert (result.report.verdict, goal.proof) == ("unknown", "")
+    assert any("feature pairs" in line for line in goal.covered)
+    assert goal.covered[-1] == "all budgets are spent; nothing is proved"
+
+
+def test_a_deadline_is_told_among_what_was_covered(tmp_path: Path) -> None:
+    path = hard_cells.write_cell("parted", tmp_path)
+    options = handey.PlanOptions(advice=False, deadline=1.0)
+    report = handey.plan(handey.load_cell(path), options).report
+    assert (report.verdict, report.deadline_passed) == ("unknown", True)
+    assert any("deadline" in line for line in report.goals[0].covered)

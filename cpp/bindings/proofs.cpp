@@ -1,6 +1,7 @@
 // Proofs that there is no grasp, or no way to one: of the floors grasp and cspace.
 #include "configurations.hpp"
 #include "handey/cspace/exhaustion.hpp"
+#include "handey/cspace/walled_off.hpp"
 #include "handey/grasp/hand_reach.hpp"
 #include "interruptible.hpp"
 
@@ -89,9 +90,52 @@ Raises:
         options.)");
 }
 
+void bind_walled_off(py::module_& m) {
+  py::class_<WalledOff>(m, "WalledOff", "Is the arm shut out from a part? True if that is proved.")
+      .def_readonly("walled_off", &WalledOff::walled_off)
+      .def_readonly("within_limits", &WalledOff::within_limits,
+                    "Some configuration within the joints' limits comes so near.")
+      .def_readonly("resolution", &WalledOff::resolution,
+                    "Widest edge of the finest cells looked at [rad].")
+      .def_readonly("cells_looked_at", &WalledOff::cells_looked_at)
+      .def_readonly("bodies", &WalledOff::bodies,
+                    "What is met at the border, those with most cells first.")
+      .def_readonly("movers", &WalledOff::movers, "What of the robot meets them, likewise.")
+      .def_readonly("reason", &WalledOff::reason, "Why it is not proved.")
+      .def("__bool__", [](const WalledOff& self) { return self.walled_off; });
+  m.def(
+      "prove_walled_off",
+      [](CollisionChecker& checker, const Configuration& start, const SphericalWristSolver& solver,
+         const Body& part, const py::object& X_RP, const SeparationOptions& options) {
+        const Pose pose = real_pose(X_RP, "X_RP");
+        const Unlock unlock;
+        return prove_walled_off(checker, start, solver, part, pose, options);
+      },
+      "checker"_a, "start"_a, "solver"_a, "part"_a, "X_RP"_a, "options"_a = SeparationOptions(),
+      R"(Prove that the arm does not come to where a hand that holds a part must be.
+
+What is called walled off is, whatever the grasp, the opening and the joints after the third do.
+What is not may be so all the same.
+
+Args:
+    checker: CollisionChecker of the cell with an empty hand, without the part.
+    start: Configuration.
+    solver: SphericalWristSolver of the robot.
+    part: Body; its own pose does not count.
+    X_RP: the part in the robot frame, (4, 4).
+    options: SeparationOptions.
+
+Returns:
+    WalledOff.
+
+Raises:
+    InvalidInput: for a start outside the limits, a pose that is not rigid, a part without shapes.)");
+}
+
 }  // namespace
 
 void bind_proofs(py::module_& m) {
+  bind_walled_off(m);
   bind_exhaustion(m);
   m.def(
       "beyond_reach",

@@ -143,6 +143,7 @@ __all__: list[str] = [
     "TimingOptions",
     "Torus",
     "TriangleMesh",
+    "WalledOff",
     "WristRange",
     "arm_plane",
     "beyond_reach",
@@ -203,6 +204,7 @@ __all__: list[str] = [
     "pose_from_xyz_rpy",
     "prove_apart",
     "prove_layer",
+    "prove_walled_off",
     "quaternion_xyzw",
     "rank_grasps",
     "rank_part_alone",
@@ -4617,6 +4619,41 @@ class SliceOptions:
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
+class WalledOff:
+    """
+    Is the arm shut out from a part? True if that is proved.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def bodies(self) -> list[str]:
+        """
+        What is met at the border, those with most cells first.
+        """
+    @property
+    def cells_looked_at(self) -> int: ...
+    @property
+    def movers(self) -> list[str]:
+        """
+        What of the robot meets them, likewise.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why it is not proved.
+        """
+    @property
+    def resolution(self) -> float:
+        """
+        Widest edge of the finest cells looked at [rad].
+        """
+    @property
+    def walled_off(self) -> bool: ...
+    @property
+    def within_limits(self) -> bool:
+        """
+        Some configuration within the joints' limits comes so near.
+        """
+
 class WristRange:
     """
     Values of the joints after the third.
@@ -4994,6 +5031,35 @@ def find_compatible_grasps(
 
     Raises:
         InvalidInput: for a part in the hand, unknown indices, bad poses or numbers.
+    """
+
+def prove_walled_off(
+    checker: CollisionChecker,
+    start: Configuration,
+    solver: SphericalWristSolver,
+    part: Body,
+    X_RP: typing.Any,
+    options: SeparationOptions = ...,
+) -> WalledOff:
+    """
+    Prove that the arm does not come to where a hand that holds a part must be.
+
+    What is called walled off is, whatever the grasp, the opening and the joints after the third do.
+    What is not may be so all the same.
+
+    Args:
+        checker: CollisionChecker of the cell with an empty hand, without the part.
+        start: Configuration.
+        solver: SphericalWristSolver of the robot.
+        part: Body; its own pose does not count.
+        X_RP: the part in the robot frame, (4, 4).
+        options: SeparationOptions.
+
+    Returns:
+        WalledOff.
+
+    Raises:
+        InvalidInput: for a start outside the limits, a pose that is not rigid, a part without shapes.
     """
 
 def rank_part_alone(part: Body, robot: Robot, options: RankingOptions = ...) -> Ranking:

@@ -313,20 +313,20 @@ class Mover:
             hands.model, scene, hands.solver, state.current, home, hands.clock, hands.table
         )
         if index is not None:
-            work = replace(work, give_up=lambda: self._give_up(index))
+            work = replace(work, give_up=lambda legal: self._give_up(index, legal))
         carry = hands.plan_goal(work, self._options(), report)
         for (action, planner), count in work.given.items():
             counts = self.report.planners.setdefault(action, {})
             counts[planner] = counts.get(planner, 0) + count
         return carry
 
-    def _give_up(self, index: int) -> None:
-        """Raise if it is proved that a goal cannot be reached."""
+    def _give_up(self, index: int, legal: bool) -> None:
+        """Raise if it is proved that a goal cannot be reached, by its grasps or its motions."""
         proofs = self.hands.proofs
         if proofs is None:
             return
         with self.hands.clock("proofs"):
-            proof = proofs.no_grasp(index)
+            proof = proofs.no_way(index) if legal else proofs.no_grasp(index)
         if proof is not None:
             raise Proved(index, proof)
 

@@ -76,7 +76,8 @@ class Workspace:
         clock: CPU seconds by stage.
         table: makes or reads maps of the arm's plane, for gross motions that are not straight.
         given: how often each planner gave a motion near obstacles, by (action, planner).
-        give_up: called where the first tries fail; raises if it is proved that all must.
+        give_up: called where the first tries fail, told whether grasps were legal; raises if it is
+            proved that all must fail.
     """
 
     model: _core.CollisionModel
@@ -87,7 +88,7 @@ class Workspace:
     clock: StageClock
     table: Callable[[], _core.ArmTable | None] = lambda: None
     given: Counter[tuple[str, str]] = field(default_factory=Counter)
-    give_up: Callable[[], None] = lambda: None
+    give_up: Callable[[bool], None] = lambda _: None
 
 
 @dataclass(frozen=True)

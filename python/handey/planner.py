@@ -20,6 +20,7 @@ from handey import _core
 from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
+from handey.coverage import tell_coverage
 from handey.errors import Fault, Interrupted, InvalidInput, Stopped
 from handey.explain import explain
 from handey.grasps import Grasps
@@ -112,6 +113,7 @@ def plan(
             if goal.status == "not tried" and goal.funnel:
                 goal.status = "stopped"
     explain(report)
+    tell_coverage(report, options)
     report.stages = {stage: round(seconds, 6) for stage, seconds in clock.seconds.items()}
     report.cpu_s = round(time.process_time() - begin_cpu, 6)
     report.wall_s = round(time.perf_counter() - begin_wall, 6)
@@ -229,11 +231,14 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     tries = Tries(work, report, options)
     grasps = Grasps(work, options, report)
     regrasp = Regrasp(work, options)
-    carry = tries.reach_any(grasps.first(regrasp.is_needed, work.give_up)) or regrasp.run(0)
+    first = grasps.first(regrasp.is_needed, lambda: work.give_up(False))
+    carry = tries.reach_any(first) or regrasp.run(0)
     if carry is None and regrasp.was_needed:
         # The tables are samples: what they have not may be found where all is looked at.
         grasps = Grasps(work, options, report)
         carry = tries.reach_any(grasps.first())
+    if carry is None:
+        work.give_up(True)
     for round_ in range(1, len(options.sampling_rounds)):
         carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
         carry = carry or regrasp.run(round_)

@@ -3,7 +3,8 @@
 A goal can be proved to be out of the question without a search: the part is wider than the jaws
 open, or so far away that no hand pose lets the jaws close on it. Where the first grasps that are
 looked at are illegal, all hand poses on all of its feature pairs may be proved so at its start or
-at its goal alone: no regrasp helps then. Bodies that handey may move are no obstacles here, so a
+at its goal alone: no regrasp helps then. Where motions fail, the arm may be proved to be walled off
+from either. Bodies that handey may move are no obstacles here, so a
 proof of one goal holds in whatever order the goals are reached: the task is infeasible.
 Not guaranteed: a proof where there is no plan. What is proved is so at the resolution that is told.
 """
@@ -29,6 +30,7 @@ __all__ = ["Proof", "Proofs", "Proved"]
 
 ENDS = ("origin", "destination")
 MOST_CAUSES = 4  # Choice: that are told of illegal hand poses
+MOST_CELLS = 20000  # Choice: of the first three joints, looked at for a wall: 0.2 s
 FAR_AWAY = 50.0  # under the cell, out of the way [m]
 
 
@@ -67,6 +69,7 @@ class Proofs:
     model: _core.CollisionModel
     solver: _core.SphericalWristSolver
     _exhausted: dict[tuple[object, ...], _core.Exhaustion] = field(default_factory=dict)
+    _walled: dict[tuple[object, ...], _core.WalledOff] = field(default_factory=dict)
 
     def at_once(self) -> Proved | None:
         """What needs no search, of the first goal of which it can be said."""
@@ -84,7 +87,8 @@ class Proofs:
         if not self._must_move(index):
             return []
         part = self._part(self.cell_file.goals[index].part)
-        found = (self._too_wide(part), self._out_of_reach(index, part), self.no_grasp(index))
+        at_once = (self._too_wide(part), self._out_of_reach(index, part))
+        found = (*at_once, self.no_grasp(index), self.no_way(index))
         return [proof for proof in found if proof is not None]
 
     def _must_move(self, index: int) -> bool:
@@ -110,6 +114,27 @@ class Proofs:
             if found:
                 where = "at both ends, and there is no support to regrasp it on"
                 return self._no_legal_pose(index, where, found)
+        return None
+
+    def no_way(self, index: int) -> Proof | None:
+        """The arm does not come to where the part must be held to reach a goal."""
+        if not self._must_move(index):
+            return None
+        cell, name = self.cell_file.cell, self.cell_file.goals[index].part
+        for end, X_WP in self.ends(index):
+            key = (name, X_WP.tobytes())
+            if key not in self._walled:
+                self._walled[key] = _core.prove_walled_off(
+                    _core.CollisionChecker(self.model, self._unmoved),
+                    cell.start,
+                    self.solver,
+                    self._part(name),
+                    np.linalg.inv(cell.X_WR) @ X_WP,
+                    _core.SeparationOptions(most_cells=MOST_CELLS),
+                )
+            found = self._walled[key]
+            if found:
+                return _no_way(name, end, found)
         return None
 
     def _no_legal_pose(self, index: int, where: str, found: _core.Exhaustion) -> Proof:
@@ -188,6 +213,23 @@ def _too_far(part: str, end: str, lack: float) -> Proof:
     text = f"{part} is {1e3 * lack:.0f} mm beyond the arm's reach at the {end}, whatever the grasp"
     cause = Reason("out_of_reach", "reachable", text, end=end, by=lack, proved=True)
     return Proof(f"no grasp: {text}", cause)
+
+
+def _no_way(part: str, end: str, found: _core.WalledOff) -> Proof:
+    if not found.within_limits:
+        text = f"no configuration within the limits of joints 1 to 3 brings the hand to {part}"
+        cause = Reason("joint_limit", "reachable", f"{text} at the {end}", end=end, proved=True)
+        return Proof(f"no grasp: {text} at the {end}", cause)
+    bodies = ", ".join(plain(name) for name in found.bodies[:MOST_CAUSES]) or "the joints' limits"
+    movers = ", ".join(plain(name) for name in found.movers[:MOST_CAUSES])
+    passing = f" ({movers} cannot pass)" if movers else ""
+    text = f"the arm is walled off from {part} at the {end}: {bodies}{passing}"
+    degrees = math.degrees(found.resolution)
+    kind = "transit" if end == ENDS[0] else "transfer"
+    cause = Reason(
+        kind, "connected", text, end=end, bodies=tuple(found.bodies[:MOST_CAUSES]), proved=True
+    )
+    return Proof(f"no way: {text}, by cells of {degrees:.2g} degrees of joints 1 to 3", cause)
 
 
 def _told(cause: _core.IllegalCause, hand: str) -> str:

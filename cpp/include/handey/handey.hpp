@@ -64,6 +64,7 @@
 #include "handey/cspace/search.hpp"
 #include "handey/cspace/separation.hpp"
 #include "handey/cspace/slice.hpp"
+#include "handey/cspace/walled_off.hpp"
 // motion
 #include "handey/motion/gross.hpp"
 #include "handey/motion/sampling.hpp"

@@ -42,7 +42,7 @@ void set_half(AxisMotion& axis, double half) {
 
 }  // namespace
 
-BlockedCells::Impl::Impl(CollisionChecker& checker, double opening, int finest_level)
+BlockedCells::Impl::Impl(CollisionChecker& checker, double opening, int finest_level, bool fingers)
     : robot(checker.cell().robot),
       scene(describe_solids(checker)),
       lattice(make_lattice(*robot)),
@@ -50,6 +50,9 @@ BlockedCells::Impl::Impl(CollisionChecker& checker, double opening, int finest_l
   if (!std::isfinite(opening)) throw InvalidInput("E_NUMBER", "opening", "is not finite");
   if (coarse_cells(lattice) > kMostCoarseCells) {
     throw InvalidInput("E_RANGE", "robot.joints", "the first three joints' ranges are too wide");
+  }
+  for (SolidMover& mover : scene.movers) {
+    if (mover.finger && !fingers) mover.solids.clear();
   }
   middle_.opening = opening;
   middle_.q.resize(static_cast<Eigen::Index>(robot->joints.size()));

@@ -32,7 +32,9 @@ double coarse_cells(const Lattice& lattice);
 
 struct BlockedCells::Impl {
   /// @param finest_level of the cells that will be asked for
-  Impl(CollisionChecker& checker, double opening, int finest_level = Lattice::kLevels - 1);
+  /// @param fingers  false: the fingers count for nothing, so that the opening does not matter
+  Impl(CollisionChecker& checker, double opening, int finest_level = Lattice::kLevels - 1,
+       bool fingers = true);
 
   /// The pair that collides everywhere in the cell, or kNoPair.
   int proving_pair(int level, const CellIndex& cell);

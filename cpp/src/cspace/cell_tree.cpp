@@ -100,6 +100,15 @@ double CellTree::gap(int id, const Eigen::VectorXd& q) const {
   return widest;
 }
 
+Eigen::VectorXd CellTree::middle(int id, const Eigen::VectorXd& q) const {
+  const TreeCell& cell = cells_[static_cast<std::size_t>(id)];
+  Eigen::VectorXd result = q;
+  for (int j = 0; j < 3; ++j) {
+    result[j] = lattice_.centre(cell.level, j, cell.index[static_cast<std::size_t>(j)]);
+  }
+  return result;
+}
+
 /// Leaves whose closed boxes meet the span.
 void CellTree::collect(const Span& span, std::vector<int>& leaves) const {
   const int size = 2 << finest_;

@@ -44,6 +44,8 @@ class CellTree {
   void neighbours(int id, std::vector<int>& leaves) const;
   /// How far a cell's centre is from a configuration, in the joint with the widest gap [rad].
   double gap(int id, const Eigen::VectorXd& q) const;
+  /// The middle of a cell, the joints after the third as in q.
+  Eigen::VectorXd middle(int id, const Eigen::VectorXd& q) const;
 
  private:
   /// In halves of the finest cells' edges; may pass the range of a joint that wraps around.

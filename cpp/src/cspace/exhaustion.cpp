@@ -31,7 +31,10 @@ constexpr double kPerimeter = 0.15;   // Choice: a joint turns less than a shift
 // An arm that hits something this much deeper than a fraction of the cell's shift is not saved by
 // another pose of the cell. Choice.
 constexpr double kDepthShare = 0.7;
-constexpr double kOfFaces = 0.99;     // Choice: of the surface, where a part has no pair at all
+constexpr double kOfFaces = 0.99;  // Choice: of the surface, where a part has no pair at all
+// Choice: to solve the arm's joints costs as much as so many cells, to tell how deep it overlaps
+// something as much as so many.
+constexpr std::size_t kCostOfJoints = 2, kCostOfDepth = 25;
 constexpr double kLeastDepth = 1e-3;  // [m]
 
 /// Features as the check of a plan takes them, which is less strict than planning.
@@ -124,7 +127,7 @@ class Search {
       for (const std::size_t i : spread(cells.size())) {
         throw_if_stopped();
         const auto& [p, cell] = cells[i];
-        if (result.cells_looked_at >= options_.most_cells) {
+        if (result.cells_looked_at + cost_ >= options_.most_cells) {
           result.reason = "given up after " + std::to_string(result.cells_looked_at) + " cells";
           return;
         }
@@ -288,6 +291,7 @@ class Search {
   Verdict judge_centre(Standing& standing, const Pose& X_RH, double width, const CellMotion& motion,
                        int level, IllegalCause& cause) {
     const InverseResult inverse = solver_.solve(X_RH);
+    cost_ += kCostOfJoints;
     if (inverse.solutions.empty()) {
       cause = {};
       cause.least = inverse.excess;
@@ -305,6 +309,7 @@ class Search {
       if (all_deep && is_deep(standing, closed, depth, cause)) continue;
       if (!standing.closed.find_hit(closed, 0.0)) return Verdict::Legal;
       if (!all_deep) continue;
+      cost_ += kCostOfDepth;
       const std::vector<Hit> hits = robot_overlaps(standing.closed, closed, depth);
       all_deep = !hits.empty();
       if (!all_deep) continue;
@@ -333,6 +338,7 @@ class Search {
   IllegalCause causes_of_cell_[2];
   Tally tally_;
   bool judged_ = false;
+  std::size_t cost_ = 0;  ///< beside the cells
 };
 
 bool is_round(const Body& part) {

@@ -31,6 +31,7 @@ double CellMotion::chord() const { return 2.0 * std::sin(0.5 * std::min(half_tur
 
 HandSolids::HandSolids(CollisionChecker& checker, const Eigen::Vector3d& centre, double radius)
     : robot_(*checker.cell().robot), scene_(describe_solids(checker)) {
+  add_base();
   for (std::size_t m = 0; m < scene_.movers.size(); ++m) {
     const SolidMover& mover = scene_.movers[m];
     const FingerJoint* finger = nullptr;
@@ -53,6 +54,24 @@ HandSolids::HandSolids(CollisionChecker& checker, const Eigen::Vector3d& centre,
       if ((solid.centre - centre).norm() > radius + solid.radius) continue;
       targets_.push_back({static_cast<int>(o), &solid});
     }
+  }
+}
+
+/// What no joint moves of the robot stands like an obstacle.
+void HandSolids::add_base() {
+  const auto is_base = [&](int m) { return scene_.movers[static_cast<std::size_t>(m)].depth == 0; };
+  for (std::size_t m = 0; m < scene_.movers.size(); ++m) {
+    if (!is_base(static_cast<int>(m))) continue;
+    SolidObstacle base;
+    base.name = scene_.movers[m].name;
+    base.solids = scene_.movers[m].solids;
+    base.checked.assign(scene_.movers.size(), 0);
+    for (const auto& [a, b] : scene_.mover_pairs) {
+      if (a == static_cast<int>(m)) base.checked[static_cast<std::size_t>(b)] = 1;
+      if (b == static_cast<int>(m)) base.checked[static_cast<std::size_t>(a)] = 1;
+    }
+    // Only where the base is the root body, whose frame is the robot's.
+    if (scene_.movers[m].body == 0) scene_.obstacles.push_back(std::move(base));
   }
 }
 

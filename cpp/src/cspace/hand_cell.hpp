@@ -62,6 +62,7 @@ class HandSolids {
     int obstacle = 0;
     const InnerSolid* solid = nullptr;
   };
+  void add_base();
   bool blocks(const Piece& piece, const Target& target, const Pose& X_RM,
               const RelativeMotion& motion, double shift) const;
 

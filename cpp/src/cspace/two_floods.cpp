@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "handey/stop.hpp"
 
@@ -32,11 +33,17 @@ bool TwoFloods::Entry::operator<(const Entry& other) const {
 TwoFloods::TwoFloods(CellTree& tree, const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                      std::size_t most_cells, std::size_t& steps_left)
     : tree_(tree),
-      ends_{&start, &goal},
+      ends_{start, goal},
       most_cells_(most_cells),
       steps_left_(steps_left),
       dives_left_(kDives),
       batch_(kFirstBatch) {}
+
+TwoFloods::TwoFloods(CellTree& tree, const Eigen::VectorXd& start, CellTest goal,
+                     std::size_t most_cells, std::size_t& steps_left)
+    : TwoFloods(tree, start, start, most_cells, steps_left) {
+  goal_ = std::move(goal);
+}
 
 Link TwoFloods::run() {
   while (true) {
@@ -67,10 +74,38 @@ void TwoFloods::begin() {
   }
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<int> leaves;
-    tree_.leaves_at(*ends_[side], leaves);
+    if (side == 1 && goal_) {
+      find_goal_leaves(leaves);
+    } else {
+      tree_.leaves_at(ends_[side], leaves);
+    }
     for (const int id : leaves) reach(side, id, -1, 0);
     if (queue_[side].empty() && blocked_end_ < 0) blocked_end_ = static_cast<int>(side);
   }
+}
+
+void TwoFloods::find_goal_leaves(std::vector<int>& leaves) {
+  in_goal_.resize(tree_.size(), -1);
+  double nearest = std::numeric_limits<double>::infinity();
+  int middle = -1;
+  for (int id = 0; id < static_cast<int>(tree_.size()); ++id) {
+    const TreeCell& cell = tree_.cell(id);
+    if (cell.state == CellState::Cut) continue;
+    signed char& known = in_goal_[static_cast<std::size_t>(id)];
+    if (known < 0) {
+      throw_if_stopped();
+      known = goal_(cell.level, cell.index) ? 1 : 0;
+    }
+    if (known == 0) continue;
+    leaves.push_back(id);
+    const double gap = tree_.gap(id, ends_[0]);
+    if (gap < nearest) {
+      nearest = gap;
+      middle = id;
+    }
+  }
+  has_goal_ = middle >= 0;
+  if (has_goal_) ends_[1] = tree_.middle(middle, ends_[0]);
 }
 
 Link TwoFloods::flood() {
@@ -119,7 +154,7 @@ void TwoFloods::reach(std::size_t side, int id, int from, int distance) {
   if (distance + weight >= there.distance) return;
   there.distance = distance + weight;
   there.from = from;
-  const double gap = tree_.gap(id, *ends_[1 - side]);
+  const double gap = tree_.gap(id, ends_[1 - side]);
   if (dives_left_ > 0) {
     queue_[side].push({0, kDetour * there.distance + gap, id});
   } else {

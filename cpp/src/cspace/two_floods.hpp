@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <queue>
@@ -15,14 +16,22 @@ namespace handey::cspace {
 
 enum class Link { Apart, Linked, GivenUp };
 
+/// May any configuration of a cell be one of an end's?
+using CellTest = std::function<bool(int level, const CellIndex& cell)>;
+
 class TwoFloods {
  public:
   /// @param most_cells looked at in the whole tree  @param steps_left neighbours looked up, counted
   /// down
   TwoFloods(CellTree& tree, const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
             std::size_t most_cells, std::size_t& steps_left);
+  /// The goal is any of the cells for which the test holds.
+  TwoFloods(CellTree& tree, const Eigen::VectorXd& start, CellTest goal, std::size_t most_cells,
+            std::size_t& steps_left);
 
   Link run();
+  /// Are there cells at all for which the test holds? After run.
+  bool has_goal() const { return has_goal_; }
 
   /// After Apart: pairs that block cells at the border of the flood that came to its end, and how
   /// many cells each.
@@ -49,6 +58,7 @@ class TwoFloods {
 
   Link flood();
   void begin();
+  void find_goal_leaves(std::vector<int>& leaves);
   void step(std::size_t side);
   void reach(std::size_t side, int id, int from, int distance);
   void cut_way();
@@ -57,7 +67,10 @@ class TwoFloods {
   int tolerated() const { return best_ + best_ / 2; }
 
   CellTree& tree_;
-  std::array<const Eigen::VectorXd*, 2> ends_;
+  std::array<Eigen::VectorXd, 2> ends_;  ///< of a region: the middle of a cell
+  CellTest goal_;                        ///< empty: the goal is ends_[1]
+  std::vector<signed char> in_goal_;     ///< by cell: -1 not known
+  bool has_goal_ = true;
   std::size_t most_cells_;
   std::size_t& steps_left_;
   std::array<std::vector<Reached>, 2> reached_;

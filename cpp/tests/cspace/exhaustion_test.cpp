@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "../grasp/parts.hpp"
 #include "../kinematics/puma.hpp"
@@ -154,7 +155,8 @@ TEST(Exhaustion, IsGivenUpWhenItsBudgetIsSpent) {
   const Exhaustion found = exhaust_grasps(make_collision_model(cell), cell, 0, {cell.parts[0].X_WB},
                                           SphericalWristSolver(*puma()), options);
   EXPECT_FALSE(found.exhausted);
-  EXPECT_EQ(found.cells_looked_at, 500u);
+  EXPECT_LE(found.cells_looked_at, 500u);
+  EXPECT_NE(found.reason.find("given up"), std::string::npos) << found.reason;
 }
 
 TEST(Exhaustion, IsNotSaidOfABall) {

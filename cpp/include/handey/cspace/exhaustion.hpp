@@ -19,10 +19,11 @@
 namespace handey {
 
 struct ExhaustionOptions {
-  double spacing = 0.006;          ///< of cells that may be judged by their centres [m]
-  double turn = 0.08726646;        ///< the same of directions [rad]. Choice: 5 degrees
-  std::size_t most_cells = 40000;  ///< looked at before it is given up. Choice: half a second
-  int most_pairs = 400;            ///< with edges or vertices; a part with more is given up
+  double spacing = 0.006;    ///< of cells that may be judged by their centres [m]
+  double turn = 0.08726646;  ///< the same of directions [rad]. Choice: 5 degrees
+  /// Looked at before it is given up; one at which the arm decides counts more. Choice: 0.2 s.
+  std::size_t most_cells = 40000;
+  int most_pairs = 400;  ///< with edges or vertices; a part with more is given up
 };
 
 enum class IllegalKind { OutOfReach, JointLimit, Collision };
