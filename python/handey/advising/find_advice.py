@@ -11,12 +11,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from handey import _core
 from handey.advice import Advice
 from handey.advising import cell_changes, gripping, poses
 from handey.advising.change import Change, Family, written
-from handey.advising.situation import Situation
+from handey.advising.situation import Blame, Situation
 from handey.advising.trials import Planner, Trials
 from handey.cell_file import CellFile
 from handey.plan_options import PlanOptions
@@ -29,7 +30,10 @@ MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
 WAVE = 4.0  # Choice: as much less plausible is each further size of a family
+HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
+FINE = 0.08  # Choice: share of a size to which it is told
+SOON = 5.0  # Choice: where moving bodies is as plausible as this, each is taken out at first
 NAMED = 2.0  # weight of a body that a reason names
 MOTIONS = ("approach", "departure", "deposit", "withdrawal", "transit", "transfer", "home")
 
@@ -80,6 +84,16 @@ def _blaming(cause: Reason, body: str) -> Reason:
     return replace(cause, text=f"{cause.text}; without {body} it plans", bodies=bodies)
 
 
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """One size of a family, with how implausible it is, and how much effort it is worth."""
+
+    rank: float
+    family: Family
+    size: float
+    effort: int
+
+
 @dataclass
 class _Search:
     """Tries families of changes, one size after the other.
@@ -89,65 +103,88 @@ class _Search:
         trials: plans with changes.
         found: changes that planned.
         culprit: a body without which it plans.
+        without: whether it plans without a body, with so much effort.
     """
 
     here: Situation
     trials: Trials
     found: list[Change] = field(default_factory=list)
     culprit: str = ""
-    without: dict[str, bool] = field(default_factory=dict)
+    without: dict[tuple[str, int], bool] = field(default_factory=dict)
+
+    @cached_property
+    def ranks(self) -> dict[str, float]:
+        """How plausible each kind of change is."""
+        return _ranks(self.here)
+
+    @cached_property
+    def bodies(self) -> list[Blame]:
+        """Those blamed most, each once."""
+        first: dict[str, Blame] = {}
+        for blame in self.here.blamed:
+            first.setdefault(blame.name, blame)
+        return list(first.values())[:MOST_BODIES]
 
     def run(self) -> None:
         """Try until the time is over."""
         waiting = list(self._tries())
-        failed: dict[int, list[float]] = {}
+        if self.ranks.get("moved", LATE) < SOON:
+            for blame in self.bodies:
+                self._plans_without(blame.name, 0)
+        failed: dict[tuple[int, int], list[float]] = {}
         while waiting and self.trials.left > 0:
-            nearest = min(waiting, key=self._rank)
-            waiting.remove(nearest)
-            _, family, size = nearest
-            change = family.make(size)
-            if change is None or not self._is_worth(change) or self._is_vain(family):
+            it = min(waiting, key=self._rank)
+            waiting.remove(it)
+            change = it.family.make(it.size)
+            if change is None or not self._is_worth(change) or self._is_vain(it):
                 continue
-            if self.trials.plans(change):
-                waiting = [it for it in waiting if it[1] is not family]
+            key = id(it.family), it.effort
+            if self.trials.plans(change, it.effort):
+                waiting = [other for other in waiting if other.family is not it.family]
                 self.found.append(change)
-                self._shrink(family, size, failed.get(id(family), []))
+                self._shrink(it, failed.get(key, []))
             else:
-                failed.setdefault(id(family), []).append(size)
-        for name, plans in self.without.items():
+                failed.setdefault(key, []).append(it.size)
+        for name in dict.fromkeys(name for (name, _), plans in self.without.items() if plans):
             change = poses.removed(self.here, name)
-            if plans and change is not None and self._is_worth(change):
+            if change is not None and self._is_worth(change):
                 self.found.append(change)
 
     def _is_worth(self, change: Change) -> bool:
         best = min((found.cost for found in self.found), default=float("inf"))
         return change.cost < WORTH * best
 
-    def _rank(self, it: tuple[float, Family, float]) -> float:
-        rank, family, _ = it
+    def _rank(self, it: _Try) -> float:
+        """Less for what is to be tried sooner."""
         # A body without which it plans is the likeliest to be moved.
-        return rank - (PROVED if self.without.get(family.body) else 0.0)
+        proved = any(self.without.get((it.family.body, effort)) for effort in range(it.effort + 1))
+        return it.rank - (PROVED if proved else 0.0)
 
-    def _is_vain(self, family: Family) -> bool:
+    def _plans_without(self, name: str, effort: int) -> bool:
+        """Is this single body in the way?"""
+        key = name, effort
+        if key not in self.without:
+            change = poses.removed(self.here, name)
+            known = effort > 0 and self.without.get((name, effort - 1), False)
+            self.without[key] = known or (change is not None and self.trials.plans(change, effort))
+            if self.without[key] and not self.culprit:
+                self.culprit = name
+        return self.without[key]
+
+    def _is_vain(self, it: _Try) -> bool:
         """Does it not even plan without the body that the family moves?"""
-        if not family.body:
-            return False
-        if family.body not in self.without:
-            change = poses.removed(self.here, family.body)
-            self.without[family.body] = change is None or self.trials.plans(change)
-            if change is not None and self.without[family.body] and not self.culprit:
-                self.culprit = family.body
-        return not self.without[family.body]
+        return bool(it.family.body) and not self._plans_without(it.family.body, it.effort)
 
-    def _shrink(self, family: Family, size: float, failed: list[float]) -> None:
+    def _shrink(self, it: _Try, failed: list[float]) -> None:
         """Halve the gap between what plans and what does not."""
+        family, size = it.family, it.size
         if family.step <= 0:
             return
-        low = max((it for it in failed if it < size), default=0.0)
-        while size - low > 1.5 * family.step and self.trials.left > 0:
+        low = max((other for other in failed if other < size), default=0.0)
+        while size - low > max(1.5 * family.step, FINE * size) and self.trials.left > 0:
             middle = family.step * round(0.5 * (low + size) / family.step)
             change = family.make(middle)
-            if change is not None and self.trials.plans(change):
+            if change is not None and self.trials.plans(change, it.effort):
                 self.found.append(change)
                 size = middle
             else:
@@ -159,16 +196,18 @@ class _Search:
         is_far = cause is not None and cause.kind == "out_of_reach" and cause.end == end
         return cause.by if cause is not None and is_far else None
 
-    def _tries(self) -> Iterator[tuple[float, Family, float]]:
-        """All that may be tried, with how implausible it is."""
+    def _tries(self) -> Iterator[_Try]:
+        """All that may be tried."""
         for family, rank in self._families():
             for wave, size in enumerate(family.sizes):
-                yield rank + family.rank + WAVE * wave, family, size
+                for effort in (0, 1):
+                    total = rank + family.rank + WAVE * wave + HARDER * effort
+                    yield _Try(total, family, size, effort)
 
     def _families(self) -> Iterator[tuple[Family, float]]:
         """Each family of changes with its rank among all."""
         here = self.here
-        ranks = _ranks(here)
+        ranks = self.ranks
         blamed = list(dict.fromkeys(blame.name for blame in here.blamed))
         parts = [name for name in blamed if here.is_part(name)]
         ends = list(here.ends)
@@ -186,11 +225,7 @@ class _Search:
         for kind, make in makers.items():
             for family in make():
                 yield family, ranks.get(kind, LATE)
-        seen: set[str] = set()
-        for order, blame in enumerate(here.blamed):
-            if blame.name in seen or len(seen) >= MOST_BODIES:
-                continue
-            seen.add(blame.name)
+        for order, blame in enumerate(self.bodies):
             for family in poses.moved_bodies(here, blame):
                 yield family, ranks.get("moved", LATE) + order
         for end in ends:

@@ -20,7 +20,8 @@ from handey.task import PlaceAt
 __all__ = ["moved_bodies", "removed", "shifts", "turns"]
 
 # Choice: sizes in the order to try them: likely ones first [m, rad].
-MOVES = (0.06, 0.15, 0.02, 0.3)
+MOVES = (0.06, 0.02, 0.3)
+HAND, LEAST_GUESS = 0.1, 0.05  # Choice: room for the hand; less is not moved at first [m]
 SHIFTS = (0.05, 0.02, 0.12, 0.25)
 BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
 TURNS = tuple(np.radians((30.0, 90.0, 60.0, 180.0)))
@@ -45,11 +46,12 @@ def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
         return
     if is_part and (load or any(goal.part == name for goal in here.cell_file.goals)):
         return
-    for order, axis in enumerate(_away(here, blame)):
+    for order, (axis, clear) in enumerate(_away(here, blame)):
+        guess = STEP * round(min(max(clear + HAND, LEAST_GUESS), MOVES[-1]) / STEP)
         yield Family(
             "part moved" if is_part else "fixture moved",
             _mover(here, name, axis),
-            MOVES,
+            tuple(dict.fromkeys((round(guess, 4), *MOVES))),
             rank=0.7 * order + (3.0 if load else 0.0),
             step=STEP,
             body="" if load else name,
@@ -95,8 +97,11 @@ def _shifted(here: Situation, place: tuple[str, Any], by: np.ndarray) -> Edit:
     return Edit(here.file, f"{where}.xyz", _rounded(xyz))
 
 
-def _away(here: Situation, blame: Blame) -> list[str]:
-    """Axes of the world along which a body comes away from the part, the likeliest first."""
+def _away(here: Situation, blame: Blame) -> list[tuple[str, float]]:
+    """Axes of the world along which a body comes away from the part, the likeliest first.
+
+    With how far it must go until it is beside the part [m].
+    """
     low, high = here.boxes[blame.name]
     ends = [blame.end] if blame.end in here.ends else list(here.ends)
     scores: dict[str, float] = {}
@@ -106,10 +111,9 @@ def _away(here: Situation, blame: Blame) -> list[str]:
         best = np.inf
         for end in ends:
             point = here.middle(end)[i]
-            # How far it must go until it is beyond the part.
             best = min(best, sign * point - (low[i] if sign > 0 else -high[i]))
         scores[axis] = best
-    return sorted(scores, key=lambda axis: scores[axis])
+    return sorted(scores.items(), key=lambda it: it[1])
 
 
 def removed(here: Situation, name: str) -> Change | None:

@@ -35,8 +35,14 @@ class Planner(Protocol):
         """Its result, with a plan or without."""
 
 
-def little(options: PlanOptions, regrasps: bool) -> PlanOptions:
-    """Options of a trial: what needs much searching is given up."""
+def little(options: PlanOptions, effort: int, regrasps: bool) -> PlanOptions:
+    """Options of a trial: what needs much searching is given up.
+
+    Args:
+        options: of the plan that failed.
+        effort: 0: one pass over the grasps; 1: one more, of more grasps.
+        regrasps: the part may be put down on the way.
+    """
     most = min(options.regrasp.most_regrasps, 2) if regrasps else 0
     regrasp = replace(
         options.regrasp,
@@ -49,8 +55,8 @@ def little(options: PlanOptions, regrasps: bool) -> PlanOptions:
         advice=False,
         deadline=None,
         direct=by_slides(options.direct),
-        denser=(),
-        sampling_rounds=options.sampling_rounds[:1],
+        denser=options.denser[:effort],
+        sampling_rounds=options.sampling_rounds[: 1 + effort],
         most_by_arm=0,
         thorough=False,
         prove=False,
@@ -81,14 +87,15 @@ class Trials:
         """Until the end [s]."""
         return self.end - time.perf_counter()
 
-    def plans(self, change: Change) -> bool:
+    def plans(self, change: Change, effort: int = 0) -> bool:
         """Does the goal plan with the change, with little effort?"""
         cell = self._changed(change)
         if cell is None:
             return False
         longest = WITH_REGRASPS if change.regrasps else LONGEST
         options = replace(
-            little(self.options, change.regrasps), deadline=max(1e-3, min(longest, self.left))
+            little(self.options, effort, change.regrasps),
+            deadline=max(1e-3, min(longest, self.left)),
         )
         self.count += 1
         return self.planner(cell, options).plan is not None
