@@ -61,13 +61,17 @@ def find_advice(
     end = start + (1 - FOR_PROOF) * options.advice_seconds
     search = _Search(here, Trials(here, options, planner, end))
     search.run()
-    search.trials.end = start + options.advice_seconds
-    for change in sorted(search.found, key=lambda change: change.cost):
-        if search.trials.holds(change):
-            failed.advice = _advice(change, failed.goal)
-            break
     if search.culprit and failed.cause is not None and failed.cause.kind in MOTIONS:
         failed.cause = _blaming(failed.cause, search.culprit)
+    search.trials.end = start + options.advice_seconds
+    for change in sorted(search.found, key=lambda change: change.cost):
+        cell = search.trials.read(change)
+        if cell is None:
+            continue
+        failed.advice = _advice(change, failed.goal)
+        if not search.trials.is_refuted(cell):
+            break
+        failed.advice = None
 
 
 def _advice(change: Change, goal: int) -> Advice:
@@ -271,7 +275,7 @@ SUGGESTED = {
 
 def _ranks(here: Situation) -> dict[str, float]:
     """How plausible each kind of change is: 0 for what the cause suggests first."""
-    ranks: dict[str, float] = {}
+    ranks: dict[str, float] = {"support": 0.0} if here.wants_regrasp else {}
     kinds = list(dict.fromkeys((reason.kind, reason.end) for reason in here.reasons))
     if not kinds:
         return dict(_UNKNOWN)
@@ -280,7 +284,8 @@ def _ranks(here: Situation) -> dict[str, float]:
         for place, wanted in enumerate(SUGGESTED.get(kind, ())):
             for each in ends:
                 name = wanted.format(end=each)
-                ranks[name] = min(ranks.get(name, LATE), 1.5 * place + 3.0 * order)
+                rank = 1.5 * place + 3.0 * order
+                ranks[name] = min(ranks.get(name, LATE), rank)
     return ranks
 
 

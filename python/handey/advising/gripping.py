@@ -50,11 +50,12 @@ def wider_jaws(here: Situation) -> Iterator[Family]:
         words = f"let the jaws open by {1e3 * size:.1f} mm more, to {1e3 * opening:.1f} mm"
         return Change("jaws", words, tuple(edits), size, robot=robot.with_jaws(opening))
 
-    sizes = []
-    for width in widths:
-        size = JAW_STEP * np.ceil((width + ROOM - greatest) / JAW_STEP)
-        sizes.append(max(JAW_STEP, float(size)))
-    yield Family("jaws", make, tuple(dict.fromkeys(sizes))[:3], step=JAW_STEP)
+    cause = here.report.cause
+    short = [width + ROOM - greatest for width in widths]
+    if cause is not None and cause.kind == "too_wide" and cause.by is not None:
+        short.insert(0, cause.by)
+    sizes = [max(JAW_STEP, float(JAW_STEP * np.ceil(size / JAW_STEP - 1e-6))) for size in short]
+    yield Family("jaws", make, tuple(dict.fromkeys(sizes))[:4], step=JAW_STEP)
 
 
 def _widths(here: Situation) -> list[float]:

@@ -21,6 +21,7 @@ __all__ = ["moved_bodies", "removed", "shifts", "turns"]
 
 # Choice: sizes in the order to try them: likely ones first [m, rad].
 MOVES = (0.06, 0.02, 0.3)
+LOADED = 6.0  # Choice: as much less plausible is it to move what carries something
 HAND, LEAST_GUESS = 0.1, 0.05  # Choice: room for the hand; less is not moved at first [m]
 SHIFTS = (0.05, 0.02, 0.12, 0.25)
 BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
@@ -52,7 +53,7 @@ def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
             "part moved" if is_part else "fixture moved",
             _mover(here, name, axis),
             tuple(dict.fromkeys((round(guess, 4), *MOVES))),
-            rank=0.7 * order + (3.0 if load else 0.0),
+            rank=0.7 * order + (LOADED if load else 0.0),
             step=STEP,
             body="" if load else name,
         )

@@ -161,6 +161,14 @@ class Situation:
         found = [Blame(name, end, w) for (name, end), w in weights.items() if name in known]
         return sorted(found, key=lambda blame: -blame.weight)
 
+    @property
+    def wants_regrasp(self) -> bool:
+        """Are grasps legal at each end, but none at both, and is there nothing to regrasp on?"""
+        told = self.report.funnel
+        ends = [told.get(f"legal at the {end}", 0) for end in ("origin", "destination")]
+        bodies = [*self.cell.fixtures, *self.cell.parts]
+        return min(ends) > 0 and not any(body.support for body in bodies)
+
     def is_part(self, name: str) -> bool:
         """Is it a part, not a fixture?"""
         return any(part.name == name for part in self.cell.parts)

@@ -1,8 +1,8 @@
 """Does the goal plan with a change? Tried by planning with it, in memory, until the time is over.
 
-A trial is short: little effort, and a bound of its own; what is told as advice is planned once more
-with all that the options allow, in the cell as its files would then be read.
-Not guaranteed: that a change fails for good which failed here.
+A trial is short: little effort, and a bound of its own. What is told as advice was planned so, and
+is read as the files would be with it; then it is planned with all that the options allow, as far as
+the time goes. Not guaranteed: that a change fails for good which failed here.
 """
 
 from __future__ import annotations
@@ -100,24 +100,27 @@ class Trials:
         self.count += 1
         return self.planner(cell, options).plan is not None
 
-    def holds(self, change: Change) -> bool:
-        """Does it plan with all effort, in the cell as its files would be read with the change?"""
+    def read(self, change: Change) -> CellFile | None:
+        """The cell as its files would be read with the change; None if it would be refused."""
         entry = self.here.cell_file.entry
         try:
             content = with_edits(entry.document.value, self._of_cell(change))
             read = read_document(Document(entry.document.file, entry.document.folder, content))
             cell = assemble(read, change.robot)
             if len(cell.warnings) > len(self.here.cell_file.warnings):
-                return False  # something would not stand
+                return None  # something would not stand
             cut = self._cut(content, len(entry.document.value["task"]))
             read = read_document(Document(entry.document.file, entry.document.folder, cut))
         except InvalidInput:
+            return None
+        return replace(cell, task=read.task, entry=read)
+
+    def is_refuted(self, cell: CellFile) -> bool:
+        """Does it not plan with all effort, in the time that is left?"""
+        if self.left <= 0:
             return False
-        left = self.left
-        if left <= 0:
-            return False
-        options = replace(self.options, advice=False, deadline=left)
-        return self.planner(replace(cell, task=read.task, entry=read), options).plan is not None
+        result = self.planner(cell, replace(self.options, advice=False, deadline=self.left))
+        return result.plan is None and not result.report.stopped
 
     def _of_cell(self, change: Change) -> list[Any]:
         return [edit for edit in change.edits if edit.file == self.here.file]
