@@ -82,6 +82,7 @@ class Family:
         make: the change of a size; None where there is none of this size.
         sizes: in the order to try them.
         rank: how plausible it is that it helps: less is more.
+        wave: as much less plausible is each further size.
         step: sizes are multiples of it; 0 where all but `sizes` are meaningless.
         body: that is taken to be in the way: if the goal does not plan without it, all of the
             family is in vain.
@@ -91,6 +92,7 @@ class Family:
     make: Callable[[float], Change | None]
     sizes: tuple[float, ...] = (0.0,)
     rank: float = 0.0
+    wave: float = 4.0
     step: float = 0.0
     body: str = ""
 

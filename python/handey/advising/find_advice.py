@@ -29,7 +29,6 @@ __all__ = ["find_advice"]
 MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
-WAVE = 4.0  # Choice: as much less plausible is each further size of a family
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
 FINE = 0.08  # Choice: share of a size to which it is told
@@ -144,7 +143,6 @@ class _Search:
                 continue
             key = id(it.family), it.effort
             if self.trials.plans(change, it.effort):
-                waiting = [other for other in waiting if other.family is not it.family]
                 self.found.append(change)
                 self._shrink(it, failed.get(key, []))
             else:
@@ -205,7 +203,7 @@ class _Search:
         for family, rank in self._families():
             for wave, size in enumerate(family.sizes):
                 for effort in (0, 1):
-                    total = rank + family.rank + WAVE * wave + HARDER * effort
+                    total = rank + family.rank + family.wave * wave + HARDER * effort
                     yield _Try(total, family, size, effort)
 
     def _families(self) -> Iterator[tuple[Family, float]]:
@@ -259,7 +257,7 @@ SUGGESTED = {
     "obstructed": ("moved", "shift {end}", "turn {end}", "may move", "support"),
     "little_contact": ("shift {end}", "turn {end}", "moved", "jaws"),
     "turns": ("friction", "support"),
-    "out_of_reach": ("shift {end}", "turn {end}", "moved"),
+    "out_of_reach": ("shift {end}", "moved", "turn {end}"),
     "joint_limit": ("turn {end}", "shift {end}", "support", "moved"),
     "collision": ("moved", "shift {end}", "turn {end}", "may move", "support"),
     "approach": ("moved", "shift origin", "turn origin", "may move"),

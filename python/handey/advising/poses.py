@@ -143,7 +143,7 @@ def shifts(here: Situation, end: str, away: list[str], least: float | None) -> I
         return
     place, kind, what = _of(here, end)
     sizes: tuple[float, ...] = SHIFTS
-    gap = 0.7 if least is None else 2.0
+    gap, wave = (0.7, 4.0) if least is None else (2.0, 0.5)
     if least is not None:
         first = STEP * np.ceil((least + 0.5 * STEP) / STEP)
         sizes = tuple(round(float(first) + more, 4) for more in BEYOND)
@@ -153,7 +153,7 @@ def shifts(here: Situation, end: str, away: list[str], least: float | None) -> I
             text = f"shift {what} by {1e3 * size:.0f} mm {words}"
             return Change(kind, text, (_shifted(here, place, size * direction),), size)
 
-        yield Family(kind, make, sizes, rank=gap * order, step=STEP)
+        yield Family(kind, make, sizes, rank=gap * order, wave=wave, step=STEP)
 
 
 def turns(here: Situation, end: str) -> Iterator[Family]:

@@ -9,7 +9,10 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol
+
+import numpy as np
 
 from handey import _core
 from handey.advising.change import Change, edited, with_edits
@@ -21,11 +24,15 @@ from handey.errors import InvalidInput
 from handey.plan_options import PlanOptions
 from handey.refusals import find_refusals
 from handey.strict_yaml import Document
+from handey.task import PlaceAt
 
 __all__ = ["Planner", "Trials"]
 
 LONGEST = 0.25  # Choice: of one trial [s]
 WITH_REGRASPS = 0.6  # Choice: of a trial in which the part may be put down on the way [s]
+
+
+INTRICATE = 200  # Choice: triangles of the parts
 
 
 class Planner(Protocol):
@@ -136,7 +143,33 @@ class Trials:
         except InvalidInput:
             return None
         model = _core.make_collision_model(cell.cell)
+        if self._is_intricate:
+            return cell if self._contacts(cell, model) <= self._known_contacts else None
         return None if find_refusals(entry, cell.cell, model) else cell
+
+    @cached_property
+    def _is_intricate(self) -> bool:
+        """Does it take long to tell how deep parts overlap? Then that is asked only in the end."""
+        shapes = [shape for part in self.here.cell.parts for shape in part.shapes]
+        meshes = [getattr(shape.geometry, "mesh", None) for shape in shapes]
+        return sum(len(mesh.triangles) for mesh in meshes if mesh is not None) > INTRICATE
+
+    @cached_property
+    def _known_contacts(self) -> set[tuple[str, int, str]]:
+        return self._contacts(self.here.cell_file, self.here.model)
+
+    def _contacts(self, cell: CellFile, model: _core.CollisionModel) -> set[tuple[str, int, str]]:
+        """What each part touches, at the start (-1) and at goals."""
+        found, parts = set(), cell.cell.parts
+        places = [(i, -1, np.asarray(part.X_WB)) for i, part in enumerate(parts)]
+        for index, goal in enumerate(cell.goals):
+            if isinstance(goal, PlaceAt):
+                places.append((cell.cell.part_index(goal.part), index, goal.X_WP))
+        for part, index, X_WP in places:
+            there = cell.cell.with_part_at(part, X_WP)
+            for ref in _core.touching_bodies(model, there, part, 0.0):
+                found.add((parts[part].name, index, there.body(ref).name))
+        return found
 
     def _cut(self, content: dict[str, Any], goals: int) -> dict[str, Any]:
         """The task up to the failed goal, where the order is given."""
