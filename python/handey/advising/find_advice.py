@@ -31,7 +31,8 @@ FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at t
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
-FINE = 0.08  # Choice: share of a size to which it is told
+BULK, BULKIEST = 0.01, 2.0  # Choice: what is large is moved with reluctance [m3]
+FINE = 0.12  # Choice: share of a size to which it is told
 SOON = 5.0  # Choice: where moving bodies is as plausible as this, each is taken out at first
 NAMED = 2.0  # weight of a body that a reason names
 MOTIONS = ("approach", "departure", "deposit", "withdrawal", "transit", "transfer", "home")
@@ -194,9 +195,17 @@ class _Search:
 
     def _missing(self, end: str) -> float | None:
         """How far an end is out of reach, if that is why it fails [m]."""
-        cause = self.here.report.cause
+        cause = self.here.reasons[0] if self.here.reasons else None
         is_far = cause is not None and cause.kind == "out_of_reach" and cause.end == end
         return cause.by if cause is not None and is_far else None
+
+    def _joint_missing(self, end: str) -> float | None:
+        """How far the first joint turns too little for an end, if that is told [rad]."""
+        first = self.here.cell.robot.joints[0].name
+        for reason in self.here.reasons:
+            if reason.kind == "joint_limit" and reason.joint == first and reason.end == end:
+                return reason.by
+        return None
 
     def _tries(self) -> Iterator[_Try]:
         """All that may be tried."""
@@ -229,7 +238,8 @@ class _Search:
                 yield family, ranks.get(kind, LATE)
         for order, blame in enumerate(self.bodies):
             for family in poses.moved_bodies(here, blame):
-                yield family, ranks.get("moved", LATE) + order
+                bulky = min(BULKIEST, here.bulk(blame.name) / BULK)
+                yield family, ranks.get("moved", LATE) + order + bulky
         for end in ends:
             away = [b.name for b in here.blamed if b.end == end and b.weight >= NAMED]
             away = [
@@ -238,6 +248,8 @@ class _Search:
                 if all(p != here.goal.part for p, _ in here.loads.get(name, []))
             ]
             for family in poses.shifts(here, end, away, self._missing(end)):
+                yield family, ranks.get(f"shift {end}", LATE)
+            for family in poses.swings(here, end, self._joint_missing(end)):
                 yield family, ranks.get(f"shift {end}", LATE)
             for family in poses.turns(here, end):
                 yield family, ranks.get(f"turn {end}", LATE)
@@ -278,7 +290,7 @@ def _ranks(here: Situation) -> dict[str, float]:
     if not kinds:
         return dict(_UNKNOWN)
     for order, (kind, end) in enumerate(kinds):
-        ends = [end] if end else ["origin", "destination"]
+        ends = [end] if end else here.ends_at_fault
         for place, wanted in enumerate(SUGGESTED.get(kind, ())):
             for each in ends:
                 name = wanted.format(end=each)

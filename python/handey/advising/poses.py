@@ -17,7 +17,7 @@ from handey.advising.change import Change, Family
 from handey.advising.situation import Blame, Situation
 from handey.task import PlaceAt
 
-__all__ = ["moved_bodies", "removed", "shifts", "turns"]
+__all__ = ["moved_bodies", "removed", "shifts", "swings", "turns"]
 
 # Choice: sizes in the order to try them: likely ones first [m, rad].
 MOVES = (0.06, 0.02, 0.3)
@@ -154,6 +154,35 @@ def shifts(here: Situation, end: str, away: list[str], least: float | None) -> I
             return Change(kind, text, (_shifted(here, place, size * direction),), size)
 
         yield Family(kind, make, sizes, rank=gap * order, wave=wave, step=STEP)
+
+
+def swings(here: Situation, end: str, least: float | None) -> Iterator[Family]:
+    """The goal, or the start of the part, shifted about the axis of the arm's first joint.
+
+    Args:
+        here: the goal that failed.
+        end: which of both.
+        least: how much less the joint must turn, as far as known [rad]; None: nothing is tried.
+    """
+    if least is None or not _is_free(here, end):
+        return
+    place, kind, what = _of(here, end)
+    arm = here.middle(end) - here.robot_at
+    radius = float(np.hypot(*arm[:2]))
+    # Less far round from straight ahead of the robot.
+    ahead = here.cell.X_WR[:2, 0]
+    sign = -np.sign(ahead[0] * arm[1] - ahead[1] * arm[0])
+
+    def make(size: float) -> Change:
+        angle = sign * size / radius
+        c, s = np.cos(angle), np.sin(angle)
+        by = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]]) @ arm - arm
+        text = f"shift {what} by {1e3 * size:.0f} mm about the robot's first axis"
+        return Change(kind, text, (_shifted(here, place, by),), size)
+
+    first = STEP * np.ceil(least * radius / STEP)
+    sizes = tuple(round(float(first) + more, 4) for more in BEYOND)
+    yield Family(kind, make, sizes, wave=0.5, step=STEP)
 
 
 def turns(here: Situation, end: str) -> Iterator[Family]:

@@ -21,6 +21,9 @@ from handey.task import Goal, PlaceAt
 
 __all__ = ["Blame", "Situation"]
 
+ENDS = ("origin", "destination")
+# Choice: of many hand poses some miss by as little; that is no cause [m, rad].
+LEAST_MISSED = {"out_of_reach": 1e-3, "joint_limit": 0.02}
 NEAR = 0.12  # Choice: what is so near to the part may be in the hand's way [m]
 
 
@@ -139,7 +142,24 @@ class Situation:
         others = [reason for stage in self.report.stages for reason in stage.reasons]
         others.sort(key=lambda reason: -reason.count)
         cause = [] if self.report.cause is None else [self.report.cause]
-        return cause + [reason for reason in others if reason not in cause]
+        found = cause + [reason for reason in others if reason not in cause]
+        return sorted(found, key=self._is_beside_the_point)
+
+    def _is_beside_the_point(self, reason: Reason) -> bool:
+        """Is it of the end at which grasps are legal, or missed by next to nothing?"""
+        if reason.proved:
+            return False
+        by_nothing = LEAST_MISSED.get(reason.kind)
+        is_near = by_nothing is not None and reason.by is not None and reason.by < by_nothing
+        return is_near or (reason.end in ENDS and reason.end not in self.ends_at_fault)
+
+    @cached_property
+    def ends_at_fault(self) -> list[str]:
+        """Where grasps fall: one end, if grasps are legal at the other alone."""
+        told = {end: self.report.funnel.get(f"legal at the {end}") for end in ENDS}
+        if not any(told.values()):
+            return list(ENDS)
+        return [end for end in ENDS if not told[end]] or list(ENDS)
 
     @cached_property
     def blamed(self) -> list[Blame]:
@@ -168,6 +188,11 @@ class Situation:
         ends = [told.get(f"legal at the {end}", 0) for end in ("origin", "destination")]
         bodies = [*self.cell.fixtures, *self.cell.parts]
         return min(ends) > 0 and not any(body.support for body in bodies)
+
+    def bulk(self, name: str) -> float:
+        """Volume of a body's box [m3]."""
+        low, high = self.boxes[name]
+        return float(np.prod(high - low))
 
     def is_part(self, name: str) -> bool:
         """Is it a part, not a fixture?"""
