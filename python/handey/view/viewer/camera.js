@@ -4,9 +4,14 @@ const camera = { turn: 0, tilt: 0, distance: 1, target: [0, 0, 0] };
 const FOV = 0.65;
 // What a framed picture must hold: everything that happens, or (close) only where hand and parts work.
 const corners = ({ low, high }) => [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [0, 1, 2].map((k) => (i >> k & 1 ? high : low)[k]));
+// Where the goals that failed begin and end: [goal, pose of its part].
+const failedEnds = !failed ? [] : scene.report.filter((goal) => goal.status !== "planned" && goal.status !== "met already")
+  .flatMap((goal) => [goal.origin, goal.destination].filter((X) => X).map((X) => [goal, X]));
 const interest = (() => {
   const places = [...scene.parts, ...goalPoses.map((goal) => ({ shapes: scene.parts[goal.part].shapes, pose: goal.pose }))];
-  const close = places.flatMap((item) => corners(bounds([item]))), whole = close.slice();
+  const ends = failedEnds.map(([goal, pose]) => ({ shapes: scene.parts[goal.part].shapes, pose }));
+  const boxes = (items) => items.flatMap((item) => corners(bounds([item])));
+  const close = boxes(ends.length ? ends : places), whole = boxes(places);
   for (const item of robotItems) if (item.shapes.length) whole.push(...corners(bounds([item])));
   for (const step of plan.steps) {
     const rowsOfStep = Math.max(Math.floor(step.rows / 12), 1);
@@ -16,9 +21,8 @@ const interest = (() => {
       if (step.action !== "transit") close.push(hand, add(hand, [0, 0, 0.2]));
     }
   }
-  for (const goal of scene.report) for (const X_WP of [goal.origin, goal.destination]) {
-    if (!X_WP || !goal.tried.length) continue;
-    for (const pose of goal.tried) close.push(at(mul(X_WP, pose.at), [0, 0, -0.08]));
+  for (const [goal, X_WP] of failedEnds) {
+    for (const pose of goal.tried) close.push(at(mul(X_WP, pose.at), [0, 0, -0.15]));
   }
   return { whole, close };
 })();
@@ -38,9 +42,8 @@ const isHidden = (eye, p) => screens.some(({ low, high, into }) => {
   return from < to;
 });
 const openSide = (heading) => {
-  const places = failed ? scene.report.filter((goal) => goal.status !== "planned").flatMap((goal) =>
-    [goal.origin, goal.destination].filter((X) => X).flatMap((X) => goal.tried.length
-      ? goal.tried.map((pose) => at(mul(X, pose.at), [0, 0, -0.05])) : [at(X, [0, 0, 0])])) : [];
+  const places = failedEnds.flatMap(([goal, X]) => goal.tried.length
+    ? goal.tried.map((pose) => at(mul(X, pose.at), [0, 0, -0.05])) : [at(X, [0, 0, 0])]);
   const sides = [0.62, -0.62, 1.2, -1.2, 0.2, 2.2, -2.2].map((offset) => {
     const eye = add(work.centre, [Math.cos(heading + offset), Math.sin(heading + offset), 0.42], 2.5 * work.radius);
     return { offset, count: places.filter((p) => isHidden(eye, p)).length };

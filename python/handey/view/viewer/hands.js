@@ -103,3 +103,4 @@ fillLegend();
 const firstCause = document.querySelector("#told .goal[open] [data-cause]");
 if (firstCause) showWhy(firstCause, false);
 frame(0, failed ? interest.close : interest.whole);
+if (failed) zoom(1.3);  // room for the hand, and for what is about the ends

@@ -94,17 +94,26 @@ const drawFrames = (X_WH, opening, width) => {
 };
 
 // ---- which one is meant by a click
-const NEAR = 22;  // Choice: a finger's breadth [px]
+const NEAR = 14;  // Choice: a finger's breadth [px]
+const onScreen = (p) => {  // [px], or null behind the eye
+  const depth = seenBy[3] * p[0] + seenBy[7] * p[1] + seenBy[11] * p[2] + seenBy[15], q = at(seenBy, p);
+  return depth > 0 ? [(0.5 + 0.5 * q[0] / depth) * canvas.clientWidth, (0.5 - 0.5 * q[1] / depth) * canvas.clientHeight] : null;
+};
+const offSegment = ([x, y], [ax, ay], [bx, by]) => {
+  const [dx, dy] = [bx - ax, by - ay], s = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), t = Math.min(Math.max(s, 0), 1);
+  return Math.hypot(ax + t * dx - x, ay + t * dy - y);
+};
 const poseNear = (x, y) => {
   const goal = triedGoal();
   if (!goal || !shown.tried) return -1;
   let best = NEAR, found = -1;
   for (const pose of shownPoses()) for (const X_WP of endsOf(goal)) {
-    const X_WH = mul(X_WP, pose.at);
-    for (const z of [0, -FORK.finger, -FORK.finger - FORK.stem]) {
-      const p = at(X_WH, [0, 0, z]), depth = seenBy[3] * p[0] + seenBy[7] * p[1] + seenBy[11] * p[2] + seenBy[15], q = at(seenBy, p);
-      const off = Math.hypot((0.5 + 0.5 * q[0] / depth) * canvas.clientWidth - x, (0.5 - 0.5 * q[1] / depth) * canvas.clientHeight - y);
-      if (depth > 0 && off < best) { best = off; found = goal.tried.indexOf(pose); }
+    const X_WH = mul(X_WP, pose.at), half = openingOf(pose) / 2, z = -FORK.finger;
+    const points = [[0, half, 0], [0, half, z], [0, -half, z], [0, -half, 0], [0, 0, z - FORK.stem], [0, 0, z]].map((p) => onScreen(at(X_WH, p)));
+    if (points.includes(null)) continue;
+    for (const [a, b] of [[0, 1], [1, 2], [2, 3], [4, 5]]) {
+      const off = offSegment([x, y], points[a], points[b]);
+      if (off < best) { best = off; found = goal.tried.indexOf(pose); }
     }
   }
   return found;
