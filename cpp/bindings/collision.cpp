@@ -20,11 +20,19 @@ void bind_model(py::module_& m) {
       "Collision geometry of a cell's robot, fixtures and parts. Immutable; shared by checkers.");
   m.def(
       "make_collision_model",
-      [](const Cell& cell) {
-        return std::const_pointer_cast<CollisionModel>(make_collision_model(cell));
+      [](const Cell& cell, const std::shared_ptr<CollisionModel>& known) {
+        return std::const_pointer_cast<CollisionModel>(make_collision_model(cell, known));
       },
-      py::arg("cell"), Unlocked(),
-      "Prepare a cell's shapes for collision checking. Raises InvalidInput for invalid cells.");
+      py::arg("cell"), py::arg("known") = py::none(), Unlocked(),
+      R"(Prepare a cell's shapes for collision checking.
+
+Args:
+    cell: the cell.
+    known: a model of any cell, or None; the robot, if it is this very one, and bodies of the same
+        name and shapes are taken from it.
+
+Raises:
+    InvalidInput: for invalid cells.)");
 }
 
 void bind_checker(py::module_& m) {

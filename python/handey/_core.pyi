@@ -5404,9 +5404,17 @@ def make_arm_table(robot: Robot, options: ArmTableOptions = ...) -> tuple[ArmTab
         InvalidInput: for options out of range.
     """
 
-def make_collision_model(cell: Cell) -> CollisionModel:
+def make_collision_model(cell: Cell, known: CollisionModel | None = None) -> CollisionModel:
     """
-    Prepare a cell's shapes for collision checking. Raises InvalidInput for invalid cells.
+    Prepare a cell's shapes for collision checking.
+
+    Args:
+        cell: the cell.
+        known: a model of any cell, or None; the robot, if it is this very one, and bodies of the same
+            name and shapes are taken from it.
+
+    Raises:
+        InvalidInput: for invalid cells.
     """
 
 def make_lattice(robot: Robot, coarse: float = 0.13962634015954636) -> Lattice:

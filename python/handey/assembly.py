@@ -60,7 +60,7 @@ def assemble(entry: CellEntry, robot: _core.Robot | None = None) -> CellFile:
         raise InvalidInput(faults)
     warnings += find_warnings(cell)
     file = Path(entry.document.file) if entry.document.file else None
-    return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry)
+    return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry, model)
 
 
 def assemble_like(entry: CellEntry, like: CellFile, robot: _core.Robot | None = None) -> CellFile:

@@ -7,6 +7,7 @@ start, is refused (docs: formats, section 2). Each step reports all of its fault
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -82,6 +83,7 @@ class CellFile:
         depth_maps: as the file gives them.
         warnings: for people.
         entry: the content of the file as it was read.
+        model: collision geometry of the cell as it was read; planning takes over what still fits.
     """
 
     file: Path | None
@@ -90,6 +92,7 @@ class CellFile:
     depth_maps: tuple[DepthMapEntry, ...]
     warnings: tuple[str, ...]
     entry: CellEntry
+    model: _core.CollisionModel | None = dataclasses.field(default=None, repr=False, compare=False)
 
     @property
     def name(self) -> str:

@@ -45,13 +45,13 @@ class WaysOut:
     Attributes:
         straight: how far, and how finely.
         in_plane: in the grasp plane, where nothing straight leads out.
-        roomier: the same, where something straight does, but ends with little room.
+        roomier: the same, where something straight does, but with little room at its end; None: no.
         sample: asked for a way for the arm where nothing else leads out.
     """
 
     straight: _core.RetreatOptions
     in_plane: _core.DepartureOptions
-    roomier: _core.DepartureOptions
+    roomier: _core.DepartureOptions | None
     sample: Sampler
 
 
@@ -187,9 +187,11 @@ def _in_plane(
     clear: _core.CollisionChecker,
     solver: _core.SphericalWristSolver,
     path: list[_core.Configuration],
-    options: _core.DepartureOptions,
+    options: _core.DepartureOptions | None,
 ) -> Iterator[Lift]:
     """Out in the grasp plane, from where a straight left contact; from its end too, if off it."""
+    if options is None:
+        return
     ends = [min(2, len(path))]
     across = _core.hand_in_world(clear.cell, path[0].q)[:3, 1]
     moved = _at(clear, path[-1]) - _at(clear, path[0])

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from handey import _core
-from handey.gross_motion import Search, go, go_straight, open_and_go
+from handey.gross_motion import Journey, Search, go, go_straight, open_and_go
 from handey.lift import PLANNERS, Lift, WaysOut, draw_back, lift
 from handey.report import StageClock
 from handey.way_out import WayOutOptions, way_out
@@ -114,11 +114,18 @@ class Motion:
 
 @dataclass(frozen=True)
 class Placing:
-    """A certified way to put the part down and leave it; the deposit is a lift, reversed."""
+    """A certified way to put the part down and leave it; the deposit is a lift, reversed.
+
+    Attributes:
+        deposit, withdraw: paths.
+        planners: what gave them.
+        may_gain: the deposit starts with little room, and none with more was looked for.
+    """
 
     deposit: list[_core.Configuration]
     withdraw: list[_core.Configuration]
     planners: tuple[str, str]
+    may_gain: bool = False
 
 
 @dataclass
@@ -224,7 +231,8 @@ def find_reach(
             )
         if not closing.is_free:
             return Carry("approach", f"the closing fingers meet {closing.hit.b}")
-        depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, options)
+        out = _ways_out(work, options)
+        depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, out)
     if not depart:
         return Carry("depart", depart.reason)
     work.given["depart", depart.planner] += 1
@@ -247,12 +255,16 @@ def _placings(
     options: DirectOptions,
     reasons: list[tuple[str, str]],
 ) -> Iterator[Placing]:
-    """Ways to put the part down and leave it, the arm nearest to `q` first."""
+    """Ways to put the part down and leave it, the arm nearest to `q` first.
+
+    A straight edge needs no room to start from: deposits that start with more are not looked for.
+    """
     scene = work.scene
     goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
     for q_place in _nearest_first(work, grasp.q_place, q)[: options.most_places]:
         with work.clock("deposit"):
-            deposit = _lift(work, goal_cell, _at(q_place, grasp.width), X_HP, options)
+            out = replace(_ways_out(work, options), roomier=None)
+            deposit = _lift(work, goal_cell, _at(q_place, grasp.width), X_HP, out)
         if not deposit:
             reasons.append(("deposit", deposit.reason))
             continue
@@ -261,7 +273,7 @@ def _placings(
         if withdraw:
             work.given["withdraw", withdraw.planner] += 1
             planners = deposit.planner, withdraw.planner
-            yield Placing(deposit.path[::-1], withdraw.path, planners)
+            yield Placing(deposit.path[::-1], withdraw.path, planners, not deposit.has_room)
         else:
             reasons.append(("withdraw", withdraw.reason))
 
@@ -271,9 +283,8 @@ def _lift(
     cell: _core.Cell,
     start: _core.Configuration,
     X_HP: np.ndarray,
-    options: DirectOptions,
+    out: WaysOut,
 ) -> Lift:
-    out = _ways_out(work, options)
     return lift(work.model, work.solver, cell, work.scene.part, start, X_HP, out)
 
 
@@ -308,14 +319,11 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
     if not transit:
         return Carry("transit", transit.reason)
 
-    with work.clock("transfer"):
-        held = scene.cell.with_held(scene.part, reach.X_HP)
-        checker = _core.CollisionChecker(work.model, held)
-        transfer = go_straight(
-            checker, reach.depart[-1], _goals(reach), options.gross.sampling.certificate
-        )
+    held = scene.cell.with_held(scene.part, reach.X_HP)
+    checker = _core.CollisionChecker(work.model, held)
+    transfer = _transfer_straight(work, checker, reach, options)
     if not transfer:
-        reach.places += list(reach.others)
+        _gain_room(work, reach, options)
         with work.clock("transfer"):
             transfer = go(checker, reach.depart[-1], _goals(reach), options.gross, work.table)
     if not transfer:
@@ -346,6 +354,44 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
         end = home.path[-1]
     motions = [m for m in motions if m.action not in ("transit", "transfer") or len(m.path) > 1]
     return Carry("done", "", motions, reach.X_HP, grasp, end)
+
+
+def _transfer_straight(
+    work: Workspace, checker: _core.CollisionChecker, reach: Reach, options: DirectOptions
+) -> Journey:
+    """The straight edge to the first way to place the part to which it is free.
+
+    Each further way is looked for only when the edges to all before are not free.
+    """
+    start, known = reach.depart[-1], 0
+    while True:
+        with work.clock("transfer"):
+            journey = go_straight(
+                checker, start, _goals(reach)[known:], options.gross.sampling.certificate
+            )
+        if journey:
+            return replace(journey, goal=journey.goal + known)
+        known = len(reach.places)
+        following = next(reach.others, None)
+        if following is None:
+            return journey
+        reach.places.append(following)
+
+
+def _gain_room(work: Workspace, reach: Reach, options: DirectOptions) -> None:
+    """Let deposits start with more room where they may: a search for the transfer needs it."""
+    scene, out = work.scene, _ways_out(work, options)
+    goal_cell = scene.cell.with_part_at(scene.part, scene.X_WP_goal)
+    for index, placing in enumerate(reach.places):
+        if not placing.may_gain:
+            continue
+        with work.clock("deposit"):
+            deposit = _lift(work, goal_cell, placing.deposit[-1], reach.X_HP, out)
+        reach.places[index] = replace(placing, may_gain=False)
+        if deposit.has_room:
+            work.given["deposit", deposit.planner] += 1
+            planners = deposit.planner, placing.planners[1]
+            reach.places[index] = Placing(deposit.path[::-1], placing.withdraw, planners)
 
 
 def _goals(reach: Reach) -> list[_core.Configuration]:

@@ -176,7 +176,7 @@ def _reach_goals(
 ) -> bool:
     """Plan all goals, and take the motions over into the state."""
     with clock("model"):
-        model = _core.make_collision_model(cell_file.cell)
+        model = _core.make_collision_model(cell_file.cell, cell_file.model)
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
     proofs = Proofs(cell_file, model, solver)
     hands = Hands(

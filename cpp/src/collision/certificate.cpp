@@ -11,7 +11,6 @@
 
 #include "checker_impl.hpp"
 #include "handey/errors.hpp"
-#include "handey/stop.hpp"
 #include "motion_bounds.hpp"
 
 namespace handey {
@@ -137,7 +136,6 @@ class EdgeProof {
     const std::vector<NearPair> pairs = std::move(stretch.pairs);
     stretch.pairs.clear();
     for (const NearPair& pair : pairs) {
-      throw_if_stopped();
       if (checker_.rough_distance(pair.pair) > needed(pair.pair)) continue;
       if (!settle(stretch, pair)) return false;
     }

@@ -26,6 +26,7 @@ constexpr double kPi = 3.14159265358979323846;
 BodyGeometry make_body(const std::string& name, const std::vector<Shape>& shapes) {
   BodyGeometry body;
   body.name = name;
+  body.shapes = shapes;
   body.pieces = collision::make_pieces(shapes, name);
   Eigen::AlignedBox3d extent;
   for (const auto& piece : body.pieces) {
@@ -42,6 +43,34 @@ BodyGeometry make_body(const std::string& name, const std::vector<Shape>& shapes
   body.radius = std::min(body.radius, 0.5 * extent.sizes().norm());
   if (body.has_tree()) body.tree = collision::PieceTree(body.pieces);
   return body;
+}
+
+bool are_same(const Shape& a, const Shape& b) {
+  if (a.geometry.index() != b.geometry.index() || a.X_BS.matrix() != b.X_BS.matrix()) return false;
+  if (const Box* box = std::get_if<Box>(&a.geometry)) {
+    return box->size == std::get<Box>(b.geometry).size;
+  }
+  if (const Cylinder* cylinder = std::get_if<Cylinder>(&a.geometry)) {
+    const Cylinder& other = std::get<Cylinder>(b.geometry);
+    return cylinder->radius == other.radius && cylinder->length == other.length;
+  }
+  if (const Sphere* sphere = std::get_if<Sphere>(&a.geometry)) {
+    return sphere->radius == std::get<Sphere>(b.geometry).radius;
+  }
+  const MeshShape &mesh = std::get<MeshShape>(a.geometry), &other = std::get<MeshShape>(b.geometry);
+  return mesh.mesh == other.mesh && mesh.solid == other.solid && mesh.convex == other.convex;
+}
+
+/// The geometry of a body, taken over where it is known.
+BodyGeometry body_of(const Body& body, const std::vector<BodyGeometry>& known) {
+  for (const BodyGeometry& geometry : known) {
+    if (geometry.name == body.name &&
+        std::equal(body.shapes.begin(), body.shapes.end(), geometry.shapes.begin(),
+                   geometry.shapes.end(), are_same)) {
+      return geometry;
+    }
+  }
+  return make_body(body.name, body.shapes);
 }
 
 void find_depths(CollisionModel::Impl& model) {
@@ -153,19 +182,17 @@ void find_self_pairs(CollisionModel::Impl& model) {
 }  // namespace
 
 std::shared_ptr<const CollisionModel> make_collision_model(
-    const Cell& cell, const std::shared_ptr<const CollisionModel>& same_robot) {
+    const Cell& cell, const std::shared_ptr<const CollisionModel>& known) {
   require_valid(cell);
   std::unique_ptr<CollisionModel::Impl> model = std::make_unique<CollisionModel::Impl>();
-  if (same_robot != nullptr) {
-    if (same_robot->impl().robot != cell.robot) {
-      throw InvalidInput("E_REF", "same_robot", "is a model of another robot");
-    }
-    const CollisionModel::Impl& known = same_robot->impl();
-    model->robot = known.robot;
-    model->robot_bodies = known.robot_bodies;
-    model->self_pairs = known.self_pairs;
-    model->depth = known.depth;
-    model->is_finger = known.is_finger;
+  const CollisionModel::Impl none;
+  const CollisionModel::Impl& before = known != nullptr ? known->impl() : none;
+  if (known != nullptr && before.robot == cell.robot) {
+    model->robot = before.robot;
+    model->robot_bodies = before.robot_bodies;
+    model->self_pairs = before.self_pairs;
+    model->depth = before.depth;
+    model->is_finger = before.is_finger;
   } else {
     model->robot = cell.robot;
     for (const RobotBody& body : cell.robot->bodies) {
@@ -174,9 +201,8 @@ std::shared_ptr<const CollisionModel> make_collision_model(
     find_depths(*model);
     find_self_pairs(*model);
   }
-  for (const Body& body : cell.fixtures)
-    model->fixtures.push_back(make_body(body.name, body.shapes));
-  for (const Body& body : cell.parts) model->parts.push_back(make_body(body.name, body.shapes));
+  for (const Body& body : cell.fixtures) model->fixtures.push_back(body_of(body, before.fixtures));
+  for (const Body& body : cell.parts) model->parts.push_back(body_of(body, before.parts));
   return std::make_shared<const CollisionModel>(std::move(model));
 }
 

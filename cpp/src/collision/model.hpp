@@ -16,6 +16,7 @@ namespace handey::collision {
 /// All pieces of a body and the ball round them, body frame.
 struct BodyGeometry {
   std::string name;
+  std::vector<Shape> shapes;  ///< what the pieces were made of
   Pieces pieces;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0.0;

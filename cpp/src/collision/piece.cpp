@@ -222,7 +222,9 @@ Pieces make_pieces(const std::vector<Shape>& shapes, const std::string& place) {
     TriangleMesh in_body = tessellate(shape);
     if (in_body.triangles.empty())
       throw InvalidInput("E_MESH_EMPTY", place, "mesh has no triangles");
-    if (mesh->solid) {
+    if (mesh->convex) {
+      pieces.push_back(mesh_piece(std::move(in_body), true, true));
+    } else if (mesh->solid) {
       add_solid_mesh(in_body, pieces);
     } else {
       pieces.push_back(mesh_piece(std::move(in_body), false, false));

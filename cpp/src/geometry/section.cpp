@@ -63,15 +63,17 @@ Region convex_projection(const TriangleMesh& polyhedron, const Slab& slab) {
   for (const Eigen::Vector3d& vertex : polyhedron.vertices) {
     if (slab.holds(vertex.z())) outline.push_back(vertex.head<2>());
   }
-  const std::vector<HalfEdge> half_edges = sorted_half_edges(polyhedron);
-  for_each_edge(half_edges, [&](std::size_t begin, std::size_t) {
-    const Eigen::Vector3d& a = polyhedron.vertices[static_cast<std::size_t>(half_edges[begin].low)];
-    const Eigen::Vector3d& b =
-        polyhedron.vertices[static_cast<std::size_t>(half_edges[begin].high)];
-    for (const double z : {slab.lower, slab.upper}) {
-      if ((a.z() < z) != (b.z() < z)) outline.push_back(crossing(a, b, z));
+  // Edges come twice, with each of their triangles: the hull drops one of them.
+  for (const Eigen::Vector3i& triangle : polyhedron.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& a = polyhedron.vertices[static_cast<std::size_t>(triangle[k])];
+      const Eigen::Vector3d& b =
+          polyhedron.vertices[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      for (const double z : {slab.lower, slab.upper}) {
+        if (a.z() < z && b.z() >= z) outline.push_back(crossing(a, b, z));
+      }
     }
-  });
+  }
   return hull_region(outline);
 }
 
@@ -226,6 +228,11 @@ class MeshProjection {
   std::vector<std::array<int, 2>> edges_;
 };
 
+bool is_known_convex(const MeshShape& shape) {
+  if (shape.convex || !shape.solid) return shape.convex;
+  return shape.mesh->triangles.size() <= kFewTriangles && is_convex(*shape.mesh);
+}
+
 }  // namespace
 
 Region slab_projection(const Shape& shape, const Pose& X_GB, double lower, double upper) {
@@ -249,7 +256,7 @@ Region slab_projection(const Shape& shape, const Pose& X_GB, double lower, doubl
   }
   std::vector<Eigen::Vector3d> vertices = transformed(mesh->mesh->vertices, X_GS);
   if (misses(vertices, slab)) return {};
-  if (mesh->solid && mesh->mesh->triangles.size() <= kFewTriangles && is_convex(*mesh->mesh)) {
+  if (is_known_convex(*mesh)) {
     return convex_projection({std::move(vertices), mesh->mesh->triangles}, slab);
   }
   MeshProjection projection(std::move(vertices), slab);

@@ -31,10 +31,18 @@ Eigen::AlignedBox2d box_of(const Region& region) {
   return box;
 }
 
+/// Of a box at a pose, grown by far more than rounding takes.
+Eigen::AlignedBox3d moved_box(const Eigen::AlignedBox3d& box, const Pose& X) {
+  const Eigen::Vector3d half =
+      X.linear().cwiseAbs() * (0.5 * box.sizes()) + Eigen::Vector3d::Constant(1e-9);
+  const Eigen::Vector3d centre = X * box.center();
+  return {centre - half, centre + half};
+}
+
 bool is_convex_body(const Body& body) {
   if (body.shapes.size() != 1) return false;
   const MeshShape* mesh = std::get_if<MeshShape>(&body.shapes.front().geometry);
-  return mesh == nullptr || is_convex(*mesh->mesh);
+  return mesh == nullptr || mesh->convex || is_convex(*mesh->mesh);
 }
 
 }  // namespace
@@ -126,10 +134,21 @@ Region Obstruction::own(const FeaturePair& pair) {
   return both.empty() ? Region{} : unite(both);
 }
 
+const std::vector<Eigen::AlignedBox3d>& Obstruction::boxes_of(const Body& body) {
+  const auto [entry, is_new] = boxes_.try_emplace(&body);
+  if (is_new) {
+    for (const Shape& shape : body.shapes) {
+      entry->second.push_back(bounding_box(shape, Pose::Identity()));
+    }
+  }
+  return entry->second;
+}
+
 Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB,
-                            double reach) const {
+                            double reach) {
+  const std::vector<Eigen::AlignedBox3d>& boxes = boxes_of(body);
   const Eigen::AlignedBox2d around = box_of(pair.overlap);
-  std::vector<Region> found;
+  Region found;
   for (const bool side_a : {true, false}) {
     const Pose X_GS = side_frame(pair, side_a);
     const Pose X_SB = (pair.X_PG * X_GS).inverse() * X_PB;
@@ -139,17 +158,21 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
     window.extend(Eigen::Vector2d(around.min().x(), y_sense * around.min().y()));
     window.extend(Eigen::Vector2d(around.max().x(), y_sense * around.max().y()));
     const double lower = -clearance_, upper = layer_ + clearance_;
-    for (const Shape& shape : body.shapes) {
-      throw_if_stopped();
-      const Eigen::AlignedBox3d box = bounding_box(shape, X_SB);
-      if (box.max().z() < lower || box.min().z() > upper) continue;
+    const auto is_beyond = [&](const Eigen::AlignedBox3d& box) {
+      if (box.max().z() < lower || box.min().z() > upper) return true;
       const Eigen::AlignedBox2d seen(box.min().head<2>(), box.max().head<2>());
-      if (window.exteriorDistance(seen) > reach) continue;
-      const Region region = slab_projection(shape, X_SB, lower, upper);
-      if (!region.empty()) found.push_back(map_region(region, X_GS));
+      return window.exteriorDistance(seen) > reach;
+    };
+    for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+      const Shape& shape = body.shapes[i];
+      // The box of a box is larger, and costs next to nothing.
+      if (is_beyond(moved_box(boxes[i], X_SB)) || is_beyond(bounding_box(shape, X_SB))) continue;
+      throw_if_stopped();
+      const Region region = map_region(slab_projection(shape, X_SB, lower, upper), X_GS);
+      found.loops.insert(found.loops.end(), region.loops.begin(), region.loops.end());
     }
   }
-  return found.empty() ? Region{} : offset(unite(found), clearance_);
+  return found.empty() ? Region{} : offset(found, clearance_);  // of their union
 }
 
 }  // namespace handey::grasp

@@ -2,6 +2,7 @@
 // plane.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,9 +31,12 @@ class Obstruction {
   Region own(const FeaturePair& pair);
   /// What of the body blocks the layers of the pair, grown by the clearance, in (x, y) of G.
   /// @param reach  bodies farther from the overlap than this are not looked at [m]
-  Region of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB, double reach) const;
+  Region of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB, double reach);
 
  private:
+  /// Of the body's shapes, along its axes.
+  const std::vector<Eigen::AlignedBox3d>& boxes_of(const Body& body);
+
   /// Frame of one side of a pair in G: z outward, of a face its normal; x = x of G, origin where
   /// the axis of G pierces the plane of the pad.
   Pose side_frame(const FeaturePair& pair, bool side_a) const;
@@ -45,6 +49,7 @@ class Obstruction {
   double layer_, clearance_;
   bool part_is_convex_;
   std::map<int, Region> own_;  // by face, in its plane: a face is in many pairs
+  std::map<const Body*, std::vector<Eigen::AlignedBox3d>> boxes_;
 };
 
 }  // namespace handey::grasp

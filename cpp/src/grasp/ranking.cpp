@@ -53,11 +53,11 @@ class Ranker {
     ranked.centre_of_mass = (pair.X_PG.inverse() * p_centre_).head<2>();
     Region blocked = obstruction_.own(pair);
     if (covers(ranked, blocked)) ranked.obstructing.push_back("the part itself");
-    blocked = unite({blocked, obstacles(ranked, false)});
+    blocked = united({std::move(blocked), obstacles(ranked, false)});
     ranked.unobstructed = subtract(pair.overlap, blocked);
     ranked.share_at_origin = area(ranked.unobstructed) / pair.area;
     if (options_.use_destination) {
-      blocked = unite({blocked, obstacles(ranked, true)});
+      blocked = united({std::move(blocked), obstacles(ranked, true)});
       ranked.unobstructed = subtract(pair.overlap, blocked);
     }
     ranked.blocked = std::move(blocked);
@@ -94,7 +94,7 @@ class Ranker {
   }
 
  private:
-  Region obstacles(RankedPair& ranked, bool at_destination) const {
+  Region obstacles(RankedPair& ranked, bool at_destination) {
     std::vector<Region> found;
     for (const NearbyBody& near : nearby_) {
       throw_if_stopped();
@@ -105,7 +105,16 @@ class Ranker {
       if (covers(ranked, region)) note(ranked, near);
       found.push_back(std::move(region));
     }
-    return found.empty() ? Region{} : unite(found);
+    return united(std::move(found));
+  }
+
+  /// Regions that are unions already need not be united where there is but one.
+  static Region united(std::vector<Region> regions) {
+    regions.erase(std::remove_if(regions.begin(), regions.end(),
+                                 [](const Region& region) { return region.empty(); }),
+                  regions.end());
+    if (regions.empty()) return {};
+    return regions.size() == 1 ? std::move(regions.front()) : unite(regions);
   }
 
   static bool covers(const RankedPair& ranked, const Region& region) {

@@ -87,7 +87,7 @@ Shape shape_of(const Prism& solid) {
     add(i, j, n + j);
     add(i, n + j, n + i);
   }
-  shape.geometry = MeshShape{std::make_shared<const TriangleMesh>(std::move(mesh)), true};
+  shape.geometry = MeshShape{std::make_shared<const TriangleMesh>(std::move(mesh)), true, true};
   return shape;
 }
 

@@ -76,6 +76,45 @@ TEST(Checker, ABodyOfManyShapesIsTheSameAsManyBodies) {
   EXPECT_LT(hits, 400);
 }
 
+TEST(Checker, AModelWithKnownBodiesIsTheSameAsAFreshOne) {
+  const Cell before = cluttered_cell(20);
+  const auto known = make_collision_model(before);
+  Cell after = before;
+  after.fixtures.erase(after.fixtures.begin() + 5);
+  for (const std::size_t larger : {std::size_t{3}, std::size_t{8}}) {
+    after.fixtures[larger].shapes.push_back(
+        {Box{{0.3, 0.2, 0.4}}, at(0.05, 0.0, 0.1)});  // of the same name, not of the same shapes
+  }
+  after.fixtures[4].X_WB = at(0.5, 0.3, 0.2);
+  CollisionChecker taken_over(make_collision_model(after, known), after),
+      fresh(make_collision_model(after), after);
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const Configuration drawn = random.configuration(*after.robot);
+    const Hit one = taken_over.closest(drawn, 0.5), other = fresh.closest(drawn, 0.5);
+    EXPECT_EQ(one.distance, other.distance);
+    EXPECT_EQ(one.b, other.b);
+  }
+}
+
+TEST(Checker, AModelOfAnotherRobotLendsNothingOfItsArm) {
+  const Cell cell = puma_cell();
+  Cell other = cell;
+  Robot longer = *cell.robot;
+  longer.bodies.back().shapes.push_back({Box{{0.5, 0.5, 0.5}}, Pose::Identity()});
+  other.robot = std::make_shared<const Robot>(longer);
+  CollisionChecker checker(make_collision_model(other, make_collision_model(cell)), other),
+      fresh(make_collision_model(other), other);
+  Random random(4);
+  int hits = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Configuration drawn = random.configuration(*cell.robot);
+    EXPECT_EQ(checker.is_free(drawn), fresh.is_free(drawn));
+    hits += fresh.is_free(drawn) ? 0 : 1;
+  }
+  EXPECT_GT(hits, 10);
+}
+
 TEST(Checker, ABodyWhollyInsideAMeshCollides) {
   // A small part in the hand, in the middle of a large solid that is not convex: surfaces are far
   // apart.

@@ -77,6 +77,10 @@ TEST(SlabProjection, MeshesAgreeWithTheConvexFormula) {
     const Region mesh = slab_projection(mesh_of(box), X_GB, std::min(a, b), std::max(a, b));
     EXPECT_NEAR(area(exact), area(mesh), 1e-6);
     EXPECT_LT(area(subtract(exact, mesh)), 5e-7);
+    Shape said = mesh_of(box);
+    std::get<MeshShape>(said.geometry).convex = true;
+    const Region known = slab_projection(said, X_GB, std::min(a, b), std::max(a, b));
+    EXPECT_NEAR(area(known), area(mesh), 1e-9);
   }
 }
 

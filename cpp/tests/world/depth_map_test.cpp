@@ -9,6 +9,7 @@
 
 #include "../collision/puma_cell.hpp"
 #include "handey/errors.hpp"
+#include "handey/geometry/convex_pieces.hpp"
 
 namespace handey {
 namespace {
@@ -252,6 +253,8 @@ TEST(DepthMap, SolidsContainWhatWasMeasuredAndStandOutNoMoreThanTold) {
       EXPECT_TRUE(heap_solids.hold({0.007 * u, 0.007 * v, upper[i] * share(random)}));
     }
     for (const Shape& shape : seen.body.shapes) {
+      const MeshShape* mesh = std::get_if<MeshShape>(&shape.geometry);
+      if (mesh != nullptr) EXPECT_TRUE(mesh->convex && is_convex(*mesh->mesh));
       for (int k = 0; k < 8; ++k) {
         EXPECT_LE(distance_from_cones(depths, empty, random_point(shape, random)),
                   seen.excess + 1e-9);

@@ -29,11 +29,11 @@ class CollisionModel {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// @param same_robot  a model of any cell with this very robot: what depends on the robot alone is
-/// taken from it, which saves a millisecond or two
-/// @throws InvalidInput for invalid cells, or (E_REF) a model of another robot
+/// @param known  a model of any cell: the robot, if it is this very one, and bodies of the same name
+/// and shapes are taken from it, which saves milliseconds
+/// @throws InvalidInput for invalid cells
 std::shared_ptr<const CollisionModel> make_collision_model(
-    const Cell& cell, const std::shared_ptr<const CollisionModel>& same_robot = nullptr);
+    const Cell& cell, const std::shared_ptr<const CollisionModel>& known = nullptr);
 
 // Names in hits: a robot body by its first link; what is held as "held bracket"; fixtures and parts
 // by their names.

@@ -23,6 +23,9 @@ struct Sphere {
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   bool solid = true;  ///< closed: what is inside collides. false: an open skin (fixtures only)
+  /// Known to be closed and convex, but for rounding: it is not looked at again. Where false a mesh
+  /// may be convex too.
+  bool convex = false;
 };
 using Geometry = std::variant<Box, Cylinder, Sphere, MeshShape>;
 
