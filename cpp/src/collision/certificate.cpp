@@ -63,12 +63,17 @@ class EdgeProof {
       : checker_(checker), bounds_(checker), a_(a), b_(b), options_(options) {}
 
   EdgeResult run() {
-    for (const double end : {0.0, 1.0}) {
-      if (!is_end_free(end)) return result_;
-    }
-    std::deque<Stretch> open;
     Stretch whole;
-    if (!look_at_whole(whole)) return result_;
+    const bool may_be_free = look_at_whole(whole);
+    const EdgeResult middle = result_;
+    // A collision at an end counts before one between. What is proved on all of the edge needs no
+    // look at its ends.
+    for (const double end : {0.0, 1.0}) {
+      if (may_be_free && whole.pairs.empty()) break;
+      if (!(may_be_free ? is_end_free(end, whole.pairs) : is_end_free(end))) return result_;
+    }
+    if (!may_be_free) return middle;
+    std::deque<Stretch> open;
     split(whole, open);
     while (!open.empty()) {
       const bool broad = result_.evaluations < kBroadFirst;
@@ -105,17 +110,23 @@ class EdgeProof {
   bool is_end_free(double end) {
     ++result_.evaluations;
     checker_.place(end == 0.0 ? a_ : b_);
-    bool free = true;
-    checker_.visit_near([this](const PiecePair&) { return options_.clearance; },
-                        [&](const PiecePair& pair) {
-                          const double distance =
-                              checker_.distance(pair, options_.clearance, options_.clearance);
-                          if (distance <= options_.clearance) {
-                            free = fail(EdgeStatus::Colliding, pair, distance, end);
-                          }
-                          return !free;
-                        });
-    return free;
+    return !checker_.visit_near([this](const PiecePair&) { return options_.clearance; },
+                                [&](const PiecePair& pair) { return collides_at(end, pair); });
+  }
+
+  /// The same of these pairs alone.
+  bool is_end_free(double end, const std::vector<NearPair>& pairs) {
+    ++result_.evaluations;
+    checker_.place(end == 0.0 ? a_ : b_);
+    return std::none_of(pairs.begin(), pairs.end(), [&](const NearPair& near) {
+      return checker_.rough_distance(near.pair) <= options_.clearance &&
+             collides_at(end, near.pair);
+    });
+  }
+
+  bool collides_at(double end, const PiecePair& pair) {
+    const double distance = checker_.distance(pair, options_.clearance, options_.clearance);
+    return distance <= options_.clearance && !fail(EdgeStatus::Colliding, pair, distance, end);
   }
 
   /// Collects the pairs that are not proved on the whole edge at once.

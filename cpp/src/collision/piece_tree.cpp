@@ -9,15 +9,23 @@ namespace {
 
 constexpr int kLeaf = 4;  // Choice: pieces that are looked at one by one
 
+Eigen::AlignedBox3d box_of(const Piece& piece) {
+  const Eigen::Vector3d centre = piece.box.X_BO.translation();
+  const Eigen::Vector3d reach = piece.box.X_BO.linear().cwiseAbs() * piece.box.half;
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(centre - reach), Eigen::Vector3d(centre + reach));
+  if (!piece.convex || piece.hull.kind != ConvexSolid::Kind::Points) return box;
+  Eigen::AlignedBox3d tight;
+  for (const Eigen::Vector3d& point : piece.hull.points) tight.extend(point);
+  tight.min().array() -= piece.hull.rounding + 1e-9;
+  tight.max().array() += piece.hull.rounding + 1e-9;
+  return tight.intersection(box);
+}
+
 }  // namespace
 
 PieceTree::PieceTree(const Pieces& pieces) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const auto& piece : pieces) {
-    const Eigen::Vector3d centre = piece->box.X_BO.translation();
-    const Eigen::Vector3d reach = piece->box.X_BO.linear().cwiseAbs() * piece->box.half;
-    boxes.emplace_back(Eigen::Vector3d(centre - reach), Eigen::Vector3d(centre + reach));
-  }
+  for (const auto& piece : pieces) boxes.push_back(box_of(*piece));
   order_.resize(pieces.size());
   std::iota(order_.begin(), order_.end(), 0);
   if (!pieces.empty()) build(0, static_cast<int>(pieces.size()), boxes);

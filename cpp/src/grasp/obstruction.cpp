@@ -39,6 +39,55 @@ Eigen::AlignedBox3d moved_box(const Eigen::AlignedBox3d& box, const Pose& X) {
   return {centre - half, centre + half};
 }
 
+constexpr double kShortestEdge = 1e-7;  // of a polygon: shorter has no sure direction [m]
+// As of `offset`: corners sharper than 60 degrees are squared.
+constexpr double kSharp = 0.5;
+
+/// A convex polygon grown by delta, mitred; nothing if it is not convex.
+Polygon grown_convex(const Polygon& polygon, double delta) {
+  Polygon points;
+  for (const Eigen::Vector2d& point : polygon) {
+    if (points.empty() || (point - points.back()).norm() > kShortestEdge) points.push_back(point);
+  }
+  while (points.size() > 1 && (points.back() - points.front()).norm() <= kShortestEdge) {
+    points.pop_back();
+  }
+  const std::size_t count = points.size();
+  if (count < 3) return {};
+  std::vector<Eigen::Vector2d> along;
+  for (std::size_t i = 0; i < count; ++i) {
+    along.push_back((points[(i + 1) % count] - points[i]).normalized());
+  }
+  Polygon result;
+  double turned = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d &before = along[(i + count - 1) % count], &after = along[i];
+    const Eigen::Vector2d out_before(before.y(), -before.x()), out_after(after.y(), -after.x());
+    const double sine = before.x() * after.y() - before.y() * after.x();
+    if (sine <= 0.0) return {};
+    const double angle = std::atan2(sine, before.dot(after));
+    turned += angle;
+    const double straightness = 1.0 + before.dot(after);
+    if (straightness >= kSharp) {
+      result.push_back(points[i] + (delta / straightness) * (out_before + out_after));
+    } else {
+      const double cut = std::tan(0.25 * angle);
+      result.push_back(points[i] + delta * (out_before + cut * before));
+      result.push_back(points[i] + delta * (out_after - cut * after));
+    }
+  }
+  return turned < 7.0 ? result : Polygon{};  // once round: 2 pi
+}
+
+/// Contains all within delta of the region; as `offset`, but quick for a convex one.
+Region grown(const Region& region, double delta) {
+  if (region.loops.size() == 1) {
+    Polygon polygon = grown_convex(region.loops.front(), delta);
+    if (!polygon.empty()) return Region{{std::move(polygon)}};
+  }
+  return offset(region, delta);
+}
+
 bool is_convex_body(const Body& body) {
   if (body.shapes.size() != 1) return false;
   const MeshShape* mesh = std::get_if<MeshShape>(&body.shapes.front().geometry);
@@ -148,7 +197,7 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
                             double reach) {
   const std::vector<Eigen::AlignedBox3d>& boxes = boxes_of(body);
   const Eigen::AlignedBox2d around = box_of(pair.overlap);
-  Region found;
+  std::vector<Region> sides;  // two small unions take less time than a large one
   for (const bool side_a : {true, false}) {
     const Pose X_GS = side_frame(pair, side_a);
     const Pose X_SB = (pair.X_PG * X_GS).inverse() * X_PB;
@@ -158,6 +207,7 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
     window.extend(Eigen::Vector2d(around.min().x(), y_sense * around.min().y()));
     window.extend(Eigen::Vector2d(around.max().x(), y_sense * around.max().y()));
     const double lower = -clearance_, upper = layer_ + clearance_;
+    std::vector<Region> found;
     const auto is_beyond = [&](const Eigen::AlignedBox3d& box) {
       if (box.max().z() < lower || box.min().z() > upper) return true;
       const Eigen::AlignedBox2d seen(box.min().head<2>(), box.max().head<2>());
@@ -168,11 +218,13 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
       // The box of a box is larger, and costs next to nothing.
       if (is_beyond(moved_box(boxes[i], X_SB)) || is_beyond(bounding_box(shape, X_SB))) continue;
       throw_if_stopped();
-      const Region region = map_region(slab_projection(shape, X_SB, lower, upper), X_GS);
-      found.loops.insert(found.loops.end(), region.loops.begin(), region.loops.end());
+      const Region region = slab_projection(shape, X_SB, lower, upper);
+      if (!region.empty()) found.push_back(grown(map_region(region, X_GS), clearance_));
     }
+    if (!found.empty()) sides.push_back(unite(found));
   }
-  return found.empty() ? Region{} : offset(found, clearance_);  // of their union
+  if (sides.size() == 2) return unite(sides);
+  return sides.empty() ? Region{} : std::move(sides.front());
 }
 
 }  // namespace handey::grasp
