@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -25,15 +27,17 @@ constexpr double kRounding = 1e-9;  // of distances and bounds, far above what d
 // depth comes first, which finds the hopeless stretch soon instead of all of its kin.
 constexpr int kBroadFirst = 31;
 
-// Choice: pairs that can come nearer by more than this are hardly ever proved; they go on to the
-// halves without a look [m].
-constexpr double kHopeless = 0.25;
+// Choice: movers that can move by more than this are hardly ever proved free of anything; they go
+// on to the halves without a look [m].
+constexpr double kHopeless = 0.1;
 
-/// Middle `at` and half width of a stretch in the parameter of the edge, and the pairs not yet
-/// proved on it.
+/// Middle `at` and half width of a stretch in the parameter of the edge, and what is not yet proved
+/// on it.
 struct Stretch {
   double at = 0.5, half = 0.5;
-  std::vector<NearPair> pairs;
+  std::vector<int> movers;      ///< against all obstacles: no pair of these was looked at yet
+  std::vector<NearPair> pairs;  ///< of other movers
+  bool is_proved() const { return movers.empty() && pairs.empty(); }
 };
 
 void require_edge(CollisionChecker::Impl& checker, const Configuration& a, const Configuration& b,
@@ -64,13 +68,17 @@ class EdgeProof {
 
   EdgeResult run() {
     Stretch whole;
-    const bool may_be_free = look_at_whole(whole);
+    whole.movers.resize(checker_.movers.size());
+    std::iota(whole.movers.begin(), whole.movers.end(), 0);
+    stand_in_middle(whole);
+    const bool may_be_free = look_at_movers(whole, true);
     const EdgeResult middle = result_;
     // A collision at an end counts before one between. What is proved on all of the edge needs no
     // look at its ends.
     for (const double end : {0.0, 1.0}) {
-      if (may_be_free && whole.pairs.empty()) break;
-      if (!(may_be_free ? is_end_free(end, whole.pairs) : is_end_free(end))) return result_;
+      if (may_be_free && whole.is_proved()) break;
+      const bool few = may_be_free && whole.movers.empty();
+      if (!(few ? is_end_free(end, whole.pairs) : is_end_free(end))) return result_;
     }
     if (!may_be_free) return middle;
     std::deque<Stretch> open;
@@ -129,23 +137,37 @@ class EdgeProof {
     return distance <= options_.clearance && !fail(EdgeStatus::Colliding, pair, distance, end);
   }
 
-  /// Collects the pairs that are not proved on the whole edge at once.
-  bool look_at_whole(Stretch& whole) {
-    stand_in_middle(whole);
-    bool go_on = true;
-    checker_.visit_near([this](const PiecePair& pair) { return needed(pair); },
-                        [&](const PiecePair& pair) {
-                          go_on = settle(whole, {pair, Eigen::Vector3d::Zero()});
-                          return !go_on;
-                        });
-    return go_on;
+  /// Collects the pairs of the stretch's movers that are not proved on it at once; leaves it the
+  /// movers for which there is no hope of that. @param first  pairs of movers too
+  bool look_at_movers(Stretch& stretch, bool first) {
+    looked_at_.assign(checker_.movers.size(), 0);
+    std::vector<int> hopeless;
+    for (const int m : stretch.movers) {
+      if (bounds_.approach({m, -1, -1, -1}) > kHopeless) {
+        hopeless.push_back(m);
+      } else {
+        looked_at_[static_cast<std::size_t>(m)] = 1;
+      }
+    }
+    const bool none = hopeless.size() == stretch.movers.size();
+    stretch.movers = std::move(hopeless);
+    if (none && !first) return true;
+    constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+    const auto reach = [&](const PiecePair& pair) {
+      const bool left_out =
+          pair.other >= 0 ? !first : looked_at_[static_cast<std::size_t>(pair.mover)] == 0;
+      return left_out ? kNowhere : needed(pair);
+    };
+    return !checker_.visit_near(reach, [&](const PiecePair& pair) {
+      return !settle(stretch, {pair, Eigen::Vector3d::Zero()});
+    });
   }
 
-  /// Leaves in the stretch the pairs that are not proved on it. @return false if the edge has
-  /// failed
+  /// Leaves in the stretch what is not proved on it. @return false if the edge has failed
   bool prove(Stretch& stretch) {
     const std::vector<NearPair> pairs = std::move(stretch.pairs);
     stretch.pairs.clear();
+    if (!stretch.movers.empty() && !look_at_movers(stretch, false)) return false;
     for (const NearPair& pair : pairs) {
       if (checker_.rough_distance(pair.pair) > needed(pair.pair)) continue;
       if (!settle(stretch, pair)) return false;
@@ -191,10 +213,10 @@ class EdgeProof {
   }
 
   static void split(const Stretch& stretch, std::deque<Stretch>& open) {
-    if (stretch.pairs.empty()) return;
+    if (stretch.is_proved()) return;
     const double half = 0.5 * stretch.half;
-    open.push_back({stretch.at - half, half, stretch.pairs});
-    open.push_back({stretch.at + half, half, stretch.pairs});
+    open.push_back({stretch.at - half, half, stretch.movers, stretch.pairs});
+    open.push_back({stretch.at + half, half, stretch.movers, stretch.pairs});
   }
 
   CollisionChecker::Impl& checker_;
@@ -202,6 +224,7 @@ class EdgeProof {
   const Configuration& a_;
   const Configuration& b_;
   const CertificateOptions& options_;
+  std::vector<char> looked_at_;  // per mover, in look_at_movers
   EdgeResult result_;
 };
 
