@@ -24,6 +24,7 @@ __all__ = ["Blame", "Situation"]
 ENDS = ("origin", "destination")
 # Choice: of many hand poses some miss by as little; that is no cause [m, rad].
 LEAST_MISSED = {"out_of_reach": 1e-3, "joint_limit": 0.02}
+SAME_FACE = 0.98  # Choice: cosine between what is up at both ends of a part not turned over
 NEAR = 0.12  # Choice: what is so near to the part may be in the hand's way [m]
 
 
@@ -183,11 +184,16 @@ class Situation:
 
     @property
     def wants_regrasp(self) -> bool:
-        """Are grasps legal at each end, but none at both, and is there nothing to regrasp on?"""
-        told = self.report.funnel
-        ends = [told.get(f"legal at the {end}", 0) for end in ("origin", "destination")]
-        bodies = [*self.cell.fixtures, *self.cell.parts]
-        return min(ends) > 0 and not any(body.support for body in bodies)
+        """Is there nothing to regrasp on, and would that help?
+
+        That is so where grasps are legal at each end, but none at both, or the part is to stand on
+        another face.
+        """
+        if any(body.support for body in [*self.cell.fixtures, *self.cell.parts]):
+            return False
+        upward = [X_WP[2, :3] for X_WP in self.ends.values()]
+        legal = [self.report.funnel.get(f"legal at the {end}", 0) for end in ENDS]
+        return min(legal) > 0 or float(upward[0] @ upward[-1]) < SAME_FACE
 
     def bulk(self, name: str) -> float:
         """Volume of a body's box [m3]."""

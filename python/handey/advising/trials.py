@@ -29,7 +29,7 @@ from handey.task import PlaceAt
 __all__ = ["Planner", "Trials"]
 
 LONGEST = 0.25  # Choice: of one trial [s]
-WITH_REGRASPS = 0.6  # Choice: of a trial in which the part may be put down on the way [s]
+WITH_REGRASPS = 1.0  # Choice: of a trial in which the part may be put down on the way [s]
 
 
 INTRICATE = 200  # Choice: triangles of the parts
