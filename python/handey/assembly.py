@@ -63,12 +63,15 @@ def assemble(entry: CellEntry, robot: _core.Robot | None = None) -> CellFile:
     return CellFile(file, cell, entry.task, entry.depth_maps, tuple(warnings), entry, model)
 
 
-def assemble_like(entry: CellEntry, like: CellFile, robot: _core.Robot | None = None) -> CellFile:
+def assemble_like(
+    entry: CellEntry, like: CellFile, measured: set[str], robot: _core.Robot | None = None
+) -> CellFile:
     """The cell of an entry that differs from another's in little; nothing is refused, quickly.
 
     Args:
-        entry: has no depth maps; those of `like` are taken as they are.
+        entry: has no depth maps.
         like: whose shapes are taken for the bodies of the same names.
+        measured: names of the depth maps of `like` that are taken as they are.
         robot: as in `assemble`; by default that of `like`.
 
     Raises:
@@ -87,12 +90,15 @@ def assemble_like(entry: CellEntry, like: CellFile, robot: _core.Robot | None = 
     start = _start(entry.robot, robot, faults)
     if faults or start is None:
         raise InvalidInput(faults)
-    measured = like.cell.fixtures[len(like.entry.fixtures) :]
+    maps = like.cell.fixtures[len(like.entry.fixtures) :]
     cell = _core.Cell(
         name=entry.name,
         robot=robot,
         X_WR=entry.robot.X_WR,
-        fixtures=[*(body for body in fixtures if body is not None), *measured],
+        fixtures=[
+            *(body for body in fixtures if body is not None),
+            *(it for it in maps if it.name in measured),
+        ],
         parts=[body for body in parts if body is not None],
         start=start,
     )

@@ -85,13 +85,13 @@ def yielding(here: Situation, names: list[str]) -> Iterator[Family]:
         may = Edit(here.file, f"parts.{name}.may_move", True)
         words = f"let {name} be moved aside"
         if has_support:
-            yield _once(Change("may move", words, (may,)), rank=order)
+            yield _once(Change("may move", words, (may,)), order, name)
             continue
         for ground, load in here.loads.items():
             if any(part == name and goal < 0 for part, goal in load) and not here.is_part(ground):
                 on = Edit(here.file, f"fixtures.{ground}.support", True)
                 text = f"{words}, on {ground} as a support"
-                yield _once(Change("may move", text, (may, on)), rank=order)
+                yield _once(Change("may move", text, (may, on)), order, name)
 
 
 def orders(here: Situation) -> Iterator[Family]:
@@ -114,7 +114,7 @@ def sooner(here: Situation, names: list[str]) -> Iterator[Family]:
             value = [*task[: here.index], goal, *task[here.index :]]
             words = f"put {name} on {fixture.name} first, by a goal before goal {here.index}"
             change = Change("earlier goal", words, (Edit(here.file, "task", value),))
-            yield _once(change, rank=order)
+            yield _once(change, order, name)
 
 
 def other_places(here: Situation) -> Iterator[Family]:

@@ -16,7 +16,7 @@ from functools import cached_property
 from handey import _core
 from handey.advice import Advice
 from handey.advising import cell_changes, gripping, poses
-from handey.advising.change import Change, Family, written
+from handey.advising.change import COSTS, Change, Family, written
 from handey.advising.situation import Blame, Situation
 from handey.advising.trials import Planner, Trials
 from handey.cell_file import CellFile
@@ -29,6 +29,7 @@ __all__ = ["find_advice"]
 MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
+DEAR = 0.05  # Choice: as much less plausible is what costs one shift of 10 mm more
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
 BULK, BULKIEST = 0.01, 2.0  # Choice: what is large is moved with reluctance [m3]
@@ -150,7 +151,7 @@ class _Search:
                 failed.setdefault(key, []).append(it.size)
         for name in dict.fromkeys(name for (name, _), plans in self.without.items() if plans):
             change = poses.removed(self.here, name)
-            if change is not None and self._is_worth(change):
+            if change is not None:
                 self.found.append(change)
 
     def _is_worth(self, change: Change) -> bool:
@@ -176,7 +177,10 @@ class _Search:
 
     def _is_vain(self, it: _Try) -> bool:
         """Does it not even plan without the body that the family moves?"""
-        return bool(it.family.body) and not self._plans_without(it.family.body, it.effort)
+        body = it.family.body
+        if not body or poses.removed(self.here, body) is None:
+            return False
+        return not self._plans_without(body, it.effort)
 
     def _shrink(self, it: _Try, failed: list[float]) -> None:
         """Halve the gap between what plans and what does not."""
@@ -211,8 +215,10 @@ class _Search:
         """All that may be tried."""
         for family, rank in self._families():
             for wave, size in enumerate(family.sizes):
+                least, slope = COSTS[family.kind]
+                dear = DEAR * (least + slope * abs(size))
                 for effort in (0, 1):
-                    total = rank + family.rank + family.wave * wave + HARDER * effort
+                    total = rank + family.rank + family.wave * wave + HARDER * effort + dear
                     yield _Try(total, family, size, effort)
 
     def _families(self) -> Iterator[tuple[Family, float]]:
@@ -267,7 +273,7 @@ SUGGESTED = {
     "too_wide": ("jaws", "support"),
     "slips": ("friction", "jaws"),
     "obstructed": ("moved", "shift {end}", "turn {end}", "may move", "support"),
-    "little_contact": ("shift {end}", "turn {end}", "moved", "jaws"),
+    "little_contact": ("shift {end}", "turn {end}", "moved"),
     "turns": ("friction", "support"),
     "out_of_reach": ("shift {end}", "moved", "turn {end}"),
     "joint_limit": ("turn {end}", "shift {end}", "support", "moved"),

@@ -22,6 +22,7 @@ from handey.robot_file import read_robot
 __all__ = ["frictions", "wider_jaws"]
 
 ROOM = 0.017  # Choice: as much as the hand likes to come in with, on both sides [m]
+MOST_WIDER = 0.06  # Choice: more would be another gripper [m]
 WIDEST = 0.5  # Choice: no jaw opens farther [m]
 JAW_STEP, FRICTION_STEP = 0.0005, 0.01
 FRICTIONS = (0.6, 0.8, 1.0, 0.5)
@@ -40,7 +41,7 @@ def wider_jaws(here: Situation) -> Iterator[Family]:
 
     def make(size: float) -> Change | None:
         opening = round(greatest + size, 4)
-        if opening > 1.0:
+        if opening > 1.0 or size > MOST_WIDER:
             return None
         edits = [Edit(os.fspath(file), "gripper.opening", [least, opening])]
         for finger, limit in limits.items():

@@ -47,7 +47,9 @@ def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
         return
     if is_part and (load or any(goal.part == name for goal in here.cell_file.goals)):
         return
-    for order, (axis, clear) in enumerate(_away(here, blame)):
+    # A part that is lifted would stand on nothing.
+    axes = [it for it in _away(here, blame) if not (is_part and it[0] == "+z")]
+    for order, (axis, clear) in enumerate(axes):
         guess = STEP * round(min(max(clear + HAND, LEAST_GUESS), MOVES[-1]) / STEP)
         yield Family(
             "part moved" if is_part else "fixture moved",

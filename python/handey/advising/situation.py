@@ -184,16 +184,20 @@ class Situation:
 
     @property
     def wants_regrasp(self) -> bool:
-        """Is there nothing to regrasp on, and would that help?
+        """Would it help to put the part down on the way?
 
-        That is so where grasps are legal at each end, but none at both, or the part is to stand on
-        another face.
+        So it may where it is to stand on another face, or where grasps are legal at each end, but
+        none at both, and nothing is a support.
         """
-        if any(body.support for body in [*self.cell.fixtures, *self.cell.parts]):
-            return False
-        upward = [X_WP[2, :3] for X_WP in self.ends.values()]
         legal = [self.report.funnel.get(f"legal at the {end}", 0) for end in ENDS]
-        return min(legal) > 0 or float(upward[0] @ upward[-1]) < SAME_FACE
+        supports = [body for body in [*self.cell.fixtures, *self.cell.parts] if body.support]
+        return self.is_turned_over or (min(legal) > 0 and not supports)
+
+    @cached_property
+    def is_turned_over(self) -> bool:
+        """Is the part to stand on another face than now?"""
+        upward = [X_WP[2, :3] for X_WP in self.ends.values()]
+        return float(upward[0] @ upward[-1]) < SAME_FACE
 
     def bulk(self, name: str) -> float:
         """Volume of a body's box [m3]."""

@@ -21,6 +21,7 @@ from handey.assembly import assemble, assemble_like
 from handey.budgets import by_slides
 from handey.cell_file import CellFile, read_document
 from handey.errors import InvalidInput
+from handey.placement import examine_standing
 from handey.plan_options import PlanOptions
 from handey.refusals import find_refusals
 from handey.strict_yaml import Document
@@ -29,9 +30,12 @@ from handey.task import PlaceAt
 __all__ = ["Planner", "Trials"]
 
 LONGEST = 0.25  # Choice: of one trial [s]
-WITH_REGRASPS = 1.0  # Choice: of a trial in which the part may be put down on the way [s]
+# Choice: of a trial in which the part may be put down on the way, or others are moved too [s]
+LONG = 1.0
+MORE_MOVES = ("may move", "earlier goal", "order")
 
 
+MOVING = ("part moved", "part shifted", "part turned", "fixture moved")
 INTRICATE = 200  # Choice: triangles of the parts
 
 
@@ -99,9 +103,10 @@ class Trials:
         cell = self._changed(change)
         if cell is None:
             return False
-        longest = WITH_REGRASPS if change.regrasps else LONGEST
+        regrasps = change.regrasps or self.here.is_turned_over
+        longest = LONG if regrasps or change.kind in MORE_MOVES else LONGEST
         options = replace(
-            little(self.options, effort, change.regrasps),
+            little(self.options, effort, regrasps),
             deadline=max(1e-3, min(longest, self.left)),
         )
         self.count += 1
@@ -136,16 +141,28 @@ class Trials:
         """The cell with a change, as far as the failed goal; None where that cannot be."""
         document = self.here.cell_file.entry.document
         content = with_edits(document.value, self._of_cell(change))
+        measured = set(content.get("depth_maps") or {})
         content = edited(self._cut(content, len(document.value["task"])), "depth_maps", None)
         try:
             entry = read_document(Document(document.file, document.folder, content))
-            cell = assemble_like(entry, self.here.cell_file, change.robot)
+            cell = assemble_like(entry, self.here.cell_file, measured, change.robot)
         except InvalidInput:
             return None
         model = _core.make_collision_model(cell.cell)
         if self._is_intricate:
             return cell if self._contacts(cell, model) <= self._known_contacts else None
-        return None if find_refusals(entry, cell.cell, model) else cell
+        if find_refusals(entry, cell.cell, model):
+            return None
+        return None if self._falls(change, cell) else cell
+
+    def _falls(self, change: Change, cell: CellFile) -> bool:
+        """Does a part that the change moves stand on nothing?"""
+        parts = cell.cell.parts if change.kind in MOVING else []
+        return any(
+            not examine_standing(cell.cell, index, np.asarray(part.X_WB)).stable
+            for index, part in enumerate(parts)
+            if any(edit.place.startswith(f"parts.{part.name}.") for edit in change.edits)
+        )
 
     @cached_property
     def _is_intricate(self) -> bool:
