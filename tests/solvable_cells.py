@@ -138,7 +138,7 @@ def look(path: Path, always_plan: bool = False) -> Outcome:
     if report.verdict == "plan":
         outcome.has_plan = True
     elif found or always_plan:
-        full = dataclasses.replace(handey.PlanOptions(), prove=False, advice=False, deadline=60.0)
+        full = dataclasses.replace(handey.PlanOptions(), prove=False, advice=False, deadline=10.0)
         outcome.has_plan = handey.plan(loaded, full).plan is not None
     return outcome
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -73,11 +73,10 @@ class Proofs:
 
     def at_once(self) -> Proved | None:
         """What needs no search, of the first goal of which it can be said."""
-        for index, goal in enumerate(self.cell_file.goals):
+        for index in range(len(self.cell_file.goals)):
             if not self._must_move(index):
                 continue
-            part = self._part(goal.part)
-            proof = self._too_wide(part) or self._out_of_reach(index, part)
+            proof = next(iter(self._plain(index)), None)
             if proof is not None:
                 return Proved(index, proof)
         return None
@@ -86,9 +85,17 @@ class Proofs:
         """All that can be proved of a goal."""
         if not self._must_move(index):
             return []
+        found = (self.no_grasp(index), self.no_way(index))
+        return [*self._plain(index), *(proof for proof in found if proof is not None)]
+
+    def _plain(self, index: int) -> list[Proof]:
+        """What needs no search."""
         part = self._part(self.cell_file.goals[index].part)
-        at_once = (self._too_wide(part), self._out_of_reach(index, part))
-        found = (*at_once, self.no_grasp(index), self.no_way(index))
+        found = (
+            self._too_wide(part),
+            self._out_of_reach(index, part),
+            self._rests_in_goal(index, part),
+        )
         return [proof for proof in found if proof is not None]
 
     def _must_move(self, index: int) -> bool:
@@ -199,6 +206,22 @@ class Proofs:
             f"open {1e3 * opening:.1f} mm"
         )
 
+    def _rests_in_goal(self, index: int, part: _core.Body) -> Proof | None:
+        """The arm returns to its start, and that is where the part must be in the end."""
+        goals, cell = self.cell_file.goals, self.cell_file.cell
+        goal = goals[index]
+        is_last = all(other.part != goal.part for other in goals[index + 1 :])
+        if not (self.cell_file.task.return_to_start and is_last and isinstance(goal, PlaceAt)):
+            return None
+        there = self._unmoved.with_part_at(cell.part_index(goal.part), goal.X_WP)
+        checker = _core.CollisionChecker(self.model, there)
+        fingers = {cell.robot.bodies[finger.child].name for finger in cell.robot.gripper.fingers}
+        for hit in _core.robot_overlaps(checker, cell.start):
+            # The fingers may come to rest at another opening.
+            if hit.a not in fingers and hit.b == part.name:
+                return _rests_in(part.name, hit)
+        return None
+
     def _out_of_reach(self, index: int, part: _core.Body) -> Proof | None:
         cell = self.cell_file.cell
         X_RW = np.linalg.inv(cell.X_WR)
@@ -213,6 +236,19 @@ def _too_far(part: str, end: str, lack: float) -> Proof:
     text = f"{part} is {1e3 * lack:.0f} mm beyond the arm's reach at the {end}, whatever the grasp"
     cause = Reason("out_of_reach", "reachable", text, end=end, by=lack, proved=True)
     return Proof(f"no grasp: {text}", cause)
+
+
+def _rests_in(part: str, hit: _core.Hit) -> Proof:
+    mover, depth = plain(hit.a), -hit.distance
+    text = (
+        f"the arm is to return to its start, where {mover} is {1e3 * depth:.1f} mm deep in {part}"
+    )
+    text += " at its goal"
+    bodies = (part,)
+    cause = Reason(
+        "home", "connected", text, end="destination", bodies=bodies, mover=hit.a, by=depth
+    )
+    return Proof(text, replace(cause, proved=True))
 
 
 def _no_way(part: str, end: str, found: _core.WalledOff) -> Proof:

@@ -29,6 +29,12 @@ from handey.report import Attempt, GoalReport
 
 __all__ = ["Tries", "planned"]
 
+# Choice: what hundreds of grasps alike fell at, more of them will fall at too. Grasps whose gross
+# motions may fall in one pass; that get each greater budget; that are approached by search.
+MOST_FALLEN = 40
+MOST_CAUGHT = 10  # that get a greater budget before all have had the least
+MOST_AGAIN = (6, 3, 1)
+MOST_SEARCHED = 6
 WAITING = 3  # Choice: grasps that fell before the first of them gets a greater budget
 
 
@@ -56,6 +62,8 @@ class Tries:
         stalled: how many of these since one was searched for.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
+        unconnected: attempts that fell at a gross motion.
+        caught: by round, how many got its budget before all had had the least.
     """
 
     work: Workspace
@@ -66,13 +74,18 @@ class Tries:
     stalled: int = 0
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
+    unconnected: int = 0
+    caught: dict[int, int] = field(default_factory=dict)
 
     def reach_any(self, grasps: Iterator[Grasp]) -> Carry | None:
         """Steps 4 to 6 with the least budget for one grasp after the other: the first that serves.
 
         Every grasp is tried with up to two configurations of the arm.
         """
+        stop_at = self.unconnected + MOST_FALLEN
         for pair, aim in grasps:
+            if self.unconnected >= stop_at:
+                return None
             self.grasps += 1
             found = self.report.funnel.get("legal grasp poses", self.grasps)
             self._announce(f"grasp {self.grasps} of {found}")
@@ -89,13 +102,14 @@ class Tries:
         What fell by its budget is tried with the next greater one first.
         """
         slid, self.slid = self.slid, []
-        for number, attempt in enumerate(slid, 1):
+        for number, attempt in enumerate(slid[:MOST_SEARCHED], 1):
             self._announce(f"by search, grasp {number} of {len(slid)}")
             carry = self._reach(attempt, 0)
             if carry is not None:
                 return carry
         for budget in range(1, round_ + 1):
-            waiting = self.waiting.pop(budget, [])
+            most = MOST_AGAIN[min(budget, len(MOST_AGAIN)) - 1]
+            waiting = self.waiting.pop(budget, [])[:most]
             for number, (attempt, reach) in enumerate(waiting, 1):
                 self._announce(f"again, grasp {number} of {len(waiting)}")
                 carry = self._carry(attempt, reach, budget)
@@ -116,7 +130,8 @@ class Tries:
         """The next budget for the first that wait for it; the greatest is left to the end."""
         for round_ in range(1, len(self.options.sampling_rounds) - 1):
             waiting = self.waiting.get(round_, [])
-            if len(waiting) >= WAITING:
+            if len(waiting) >= WAITING and self.caught.get(round_, 0) < MOST_CAUGHT:
+                self.caught[round_] = self.caught.get(round_, 0) + 1
                 carry = self._carry(*waiting.pop(0), round_)
                 if carry is not None:
                     return carry
@@ -164,6 +179,7 @@ class Tries:
         self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
         if carry.stage == "done":
             return planned(self.report, attempt.name, carry)
+        self.unconnected += 1
         if round_ + 1 < len(self.options.sampling_rounds):
             self.waiting.setdefault(round_ + 1, []).append((attempt, reach))
         return None
