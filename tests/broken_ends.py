@@ -11,7 +11,7 @@ from broken_truth import GOAL, START, Truth, box, broken, cell, on_table, place,
 Cell = dict[str, Any]
 BLOCK = [0.04, 0.06, 0.05]
 ROOM = 0.004  # that the open jaws need beside the part: 2 mm at each side [m]
-BAR = [0.04, 0.12, 0.05]  # only its long sides can be held
+BAR = [0.04, 0.20, 0.05]  # only its long sides can be held
 
 
 def moved(folder: Path, size: list[float], fixtures: dict[str, Any], **more: Any) -> Cell:
@@ -61,23 +61,31 @@ def goal_at_the_base(folder: Path, is_broken: bool) -> Cell:
     return cell(folder, {}, parts, [place("block", [0.0, y, 0.025], 1.5707963267948966)])
 
 
-# A back, sides and a roof, open to -x.
+# A shelf's floor, back, sides and roof, open to -x.
+SHELF = 0.3
 NICHE = [
-    box([0.02, 0.32, 0.30], [0.12, 0, 0.15]),
-    box([0.24, 0.02, 0.30], [0.0, 0.16, 0.15]),
-    box([0.24, 0.02, 0.30], [0.0, -0.16, 0.15]),
-    box([0.24, 0.34, 0.02], [0.0, 0, 0.31]),
+    box([0.24, 0.34, SHELF], [0.0, 0, SHELF / 2]),
+    box([0.02, 0.34, 0.30], [0.11, 0, SHELF + 0.15]),
+    box([0.22, 0.02, 0.30], [-0.01, 0.16, SHELF + 0.15]),
+    box([0.22, 0.02, 0.30], [-0.01, -0.16, SHELF + 0.15]),
+    box([0.24, 0.34, 0.02], [0.0, 0, SHELF + 0.31]),
 ]
+
+
+def shelf_and_wall(at: tuple[float, float], is_walled: bool) -> dict[str, Any]:
+    """The niche, with its floor at SHELF; a wall before it, if asked."""
+    fixtures = {"niche": shapes(*NICHE, at=at)}
+    if is_walled:
+        fixtures["wall"] = on_table([0.02, 0.34, SHELF + 0.3], (at[0] - 0.15, at[1]))
+    return fixtures
 
 
 @broken(Truth(("collision", "obstructed", "approach"), "origin", bodies=("wall",)))
 def wall_before_the_part(folder: Path, is_broken: bool) -> Cell:
-    """A wall stands before the niche in which the part waits: the hand cannot come in."""
+    """A wall stands before the shelf on which the part waits: the hand cannot come in."""
     at = (0.62, 0.2)
-    fixtures = {"niche": shapes(*NICHE, at=at)}
-    if is_broken:
-        fixtures["wall"] = on_table([0.02, 0.3, 0.28], (at[0] - 0.10, at[1]))
-    parts = {"block": on_table(BLOCK, at)}
+    parts = {"block": box(BLOCK, [*at, SHELF + 0.025])}
+    fixtures = shelf_and_wall(at, is_broken)
     return cell(folder, fixtures, parts, [place("block", [*GOAL, 0.025])])
 
 
@@ -85,21 +93,19 @@ def wall_before_the_part(folder: Path, is_broken: bool) -> Cell:
     Truth(("collision", "obstructed", "deposit", "withdrawal"), "destination", bodies=("wall",))
 )
 def wall_before_the_goal(folder: Path, is_broken: bool) -> Cell:
-    """A wall stands before the niche into which the part is to go."""
+    """A wall stands before the shelf onto which the part is to go."""
     at = (0.62, -0.2)
-    fixtures = {"niche": shapes(*NICHE, at=at)}
-    if is_broken:
-        fixtures["wall"] = on_table([0.02, 0.3, 0.28], (at[0] - 0.10, at[1]))
     parts = {"block": on_table(BLOCK, START)}
-    return cell(folder, fixtures, parts, [place("block", [*at, 0.025])])
+    fixtures = shelf_and_wall(at, is_broken)
+    return cell(folder, fixtures, parts, [place("block", [*at, SHELF + 0.025])])
 
 
 def beside(x: float, gap: float) -> dict[str, Any]:
     """Two blocks, so far from the long sides of a bar."""
     apart = 0.02 + gap + 0.03
     return {
-        "left": on_table([0.06, 0.14, 0.06], (0.5 - apart, x)),
-        "right": on_table([0.06, 0.14, 0.06], (0.5 + apart, x)),
+        "left": on_table([0.06, 0.22, 0.06], (0.5 - apart, x)),
+        "right": on_table([0.06, 0.22, 0.06], (0.5 + apart, x)),
     }
 
 
@@ -125,7 +131,7 @@ def neighbours_at_the_start(folder: Path, is_broken: bool) -> Cell:
 def slot(gap: float, height: float) -> dict[str, Any]:
     """Two walls along the goal of a bar."""
     apart = 0.02 + gap + 0.01
-    walls = [on_table([0.02, 0.16, height], (side * apart, 0.0)) for side in (-1, 1)]
+    walls = [on_table([0.02, 0.24, height], (side * apart, 0.0)) for side in (-1, 1)]
     return {"slot": shapes(*walls, at=GOAL)}
 
 
@@ -152,17 +158,16 @@ def roof_over_the_goal(folder: Path, is_broken: bool) -> Cell:
 @broken(Truth(("collision",), "destination", bodies=("beam",)))
 def beam_before_the_forearm(folder: Path, is_broken: bool) -> Cell:
     """The arm must reach over a beam that lies where its forearm would be."""
-    height = 0.32 if is_broken else 0.04
-    beam = box([0.06, 1.4, 0.06], [0.5, -0.3, height])
+    beam = box([0.06, 1.4, 0.12], [0.42, -0.3, 0.37 if is_broken else 0.06])
     walls = shapes(
         box([0.02, 0.2, 0.2], [0.1, 0, 0.1]),
         box([0.22, 0.02, 0.2], [0, 0.1, 0.1]),
         box([0.22, 0.02, 0.2], [0, -0.1, 0.1]),
         box([0.02, 0.2, 0.2], [-0.1, 0, 0.1]),
-        at=(0.66, -0.3),
+        at=(0.58, -0.3),
     )
     parts = {"block": on_table(BLOCK, (0.3, 0.35))}
-    goal = place("block", [0.66, -0.3, 0.025])
+    goal = place("block", [0.58, -0.3, 0.025])
     return cell(folder, {"beam": beam, "well": walls}, parts, [goal])
 
 
@@ -180,16 +185,28 @@ def unmeasured_about_the_goal(folder: Path, is_broken: bool) -> Cell:
     return moved(folder, BLOCK, {}, depth_maps=maps)
 
 
-@broken(Truth(("joint_limit",), joints=("joint5",), by=(0.19, 0.03)))
+# Round the bar at its goal, so deep and close that the hand comes straight down into it.
+PIT = [
+    *(box([0.02, 0.24, 0.15], [side * 0.1, 0, 0.075]) for side in (-1, 1)),
+    *(box([0.18, 0.02, 0.15], [0, side * 0.11, 0.075]) for side in (-1, 1)),
+]
+
+
+@broken(Truth(("joint_limit",), "destination", joints=("joint5",), by=(0.2, 0.03)))
 def joint_5_limited(folder: Path, is_broken: bool) -> Cell:
-    """Joint 5 turns 0.2 rad less than it must to come down into the slot at the goal."""
-    limits = {"joint5": (-0.553, 0.553)} if is_broken else {}
-    return moved(folder, BAR, slot(0.03, 0.12), limits=limits)
+    """Joint 5 turns 0.2 rad less than it must to come straight down into the pit at the goal."""
+    limits = {"joint5": (-0.262, 0.262)} if is_broken else {}
+    parts = {"block": on_table([0.04, 0.12, 0.05], (0.38, 0.2))}
+    at = (0.66, -0.2)
+    goal = place("block", [*at, 0.025])
+    return cell(folder, {"pit": shapes(*PIT, at=at)}, parts, [goal], limits=limits)
 
 
 @broken(Truth(("joint_limit",), "destination", joints=("joint1",), by=(0.2, 0.03)))
 def joint_1_limited(folder: Path, is_broken: bool) -> Cell:
-    """Joint 1 turns 0.2 rad less than it must to reach the goal beside the base."""
-    limits = {"joint1": (-0.544, 0.544)} if is_broken else {}
-    parts = {"block": on_table(BLOCK, START)}
-    return cell(folder, {}, parts, [place("block", [-0.1, -0.55, 0.025])], limits=limits)
+    """Joint 1 turns 0.2 rad less than it must to come down into the pit beside the robot."""
+    limits = {"joint1": (-1.029, 1.029)} if is_broken else {}
+    parts = {"block": on_table([0.04, 0.12, 0.05], START)}
+    at = (0.0, -0.55)
+    goal = place("block", [*at, 0.025])
+    return cell(folder, {"pit": shapes(*PIT, at=at)}, parts, [goal], limits=limits)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from broken_ends import BAR, BLOCK, moved
+from broken_ends import BLOCK, moved
 from broken_truth import GOAL, START, Truth, box, broken, cell, model, on_table, place, shapes
 
 Cell = dict[str, Any]
@@ -84,7 +84,7 @@ def swapped_without_support(folder: Path, is_broken: bool) -> Cell:
 @broken(Truth(("obstructed", "collision", "approach"), bodies=("first",)), goal=1)
 def wrong_order(folder: Path, is_broken: bool) -> Cell:
     """The first goal puts a part before the niche into which the second is to go."""
-    at = (0.62, -0.2)
+    at = (0.56, -0.2)
     walls = [
         box([0.02, 0.22, 0.30], [0.10, 0, 0.15]),
         box([0.2, 0.02, 0.30], [0.01, 0.12, 0.15]),
@@ -127,7 +127,8 @@ def region_too_small(folder: Path, is_broken: bool) -> Cell:
     return cell(folder, {}, parts, [goal])
 
 
-@broken(Truth(("no_features",)))
+# Two features of it are opposite to each other only if one is of the face that it stands on.
+@broken(Truth(("no_features",)), Truth(("obstructed", "collision"), "origin", bodies=("table",)))
 def no_opposite_faces(folder: Path, is_broken: bool) -> Cell:
     """No two features of the part are opposite to each other: a tetrahedron, instead of a wedge."""
     name = "tetrahedron" if is_broken else "wedge"
@@ -178,7 +179,7 @@ def lane_is_shut(folder: Path, is_broken: bool) -> Cell:
     fixtures = {"lane": shapes(*LANE, at=at)}
     if is_broken:
         fixtures["door"] = box([0.216, 0.02, 0.17], [at[0], at[1] - 0.145, 0.085])
-    parts = {"block": on_table(BAR, at)}
+    parts = {"block": on_table([0.04, 0.12, 0.05], at)}
     goal = place("block", [0.48, -0.26, 0.025])
     return cell(folder, fixtures, parts, [goal], table=BARE)
 

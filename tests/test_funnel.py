@@ -140,3 +140,45 @@ def test_reasons_that_tell_the_same_are_one_with_the_nearest_miss() -> None:
     first, second = merged([far, other, near])
     assert first == other
     assert (second.text, second.count, second.by) == ("near", 5, 0.1)
+
+
+ROOF = "  roof: {box: [0.5, 0.5, 0.02], pose: {xyz: [0.45, -0.25, 0.09]}}\n"
+SHAFT = (
+    "  shaft:\n    pose: {xyz: [0.45, -0.25, 0.2]}\n    shapes:\n"
+    "      - {box: [0.02, 0.12, 0.4], pose: {xyz: [-0.035, 0, 0]}}\n"
+    "      - {box: [0.02, 0.12, 0.4], pose: {xyz: [0.035, 0, 0]}}\n"
+    "      - {box: [0.09, 0.02, 0.4], pose: {xyz: [0, -0.045, 0]}}\n"
+    "      - {box: [0.09, 0.02, 0.4], pose: {xyz: [0, 0.045, 0]}}\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("fixtures", "kind", "body"), [(ROOF, "collision", "roof"), (SHAFT, "obstructed", "shaft")]
+)
+def test_the_body_that_is_in_the_way_at_one_end_only_is_the_cause(
+    tmp_path: Path, fixtures: str, kind: str, body: str
+) -> None:
+    goal = _report(tmp_path, fixtures=fixtures)
+    _check_sums(goal)
+    assert goal.status == "failed" and goal.cause is not None
+    cause = goal.cause
+    assert (cause.kind, cause.end, cause.bodies) == (kind, "destination", (body,))
+    assert "mm deep at the destination" in cause.text and cause.mover == "hand"
+
+
+def test_a_goal_beyond_reach_is_the_cause_with_its_distance(tmp_path: Path) -> None:
+    causes = []
+    for x in (1.02, 1.10):
+        goal = _report(tmp_path, task=GOAL.replace("0.45, -0.25", f"{x}, 0"))
+        assert goal.cause is not None
+        assert (goal.cause.kind, goal.cause.end) == ("out_of_reach", "destination")
+        causes.append(goal.cause.by or 0.0)
+    assert causes[1] - causes[0] == pytest.approx(0.08, abs=0.015)
+
+
+def test_a_part_to_be_turned_over_without_a_support_lacks_one(tmp_path: Path) -> None:
+    task = GOAL.replace("0.025]", "0.025], rpy: [3.14159265, 0, 0]")
+    goal = _report(tmp_path, task=task)
+    assert goal.cause is not None
+    assert goal.cause.kind == "no_regrasp" and "support" in goal.cause.text
+    assert goal.cause in goal.stages[-1].reasons
