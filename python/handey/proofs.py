@@ -120,7 +120,10 @@ class Proofs:
             found = self._exhaust(index, [X_WP for _, X_WP in ends])
             if found:
                 where = "at both ends, and there is no support to regrasp it on"
-                return self._no_legal_pose(index, where, found)
+                proof = self._no_legal_pose(index, where, found)
+                name = self.cell_file.goals[index].part
+                text = f"no grasp serves both ends, and there is no support to put {name} down on"
+                return replace(proof, cause=Reason("no_regrasp", "connected", text))
         return None
 
     def no_way(self, index: int) -> Proof | None:
