@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from handey import _core
-from handey.advice import Advice
+from handey.advice import Advice, Edit
 from handey.advising import cell_changes, gripping, poses
 from handey.advising.change import COSTS, Change, Family, written
 from handey.advising.situation import Blame, Situation
@@ -57,7 +57,7 @@ def find_advice(
     failed = next((goal for goal in report.goals if goal.status == "failed"), None)
     if failed is None:
         return
-    model = _core.make_collision_model(cell_file.cell)
+    model = _core.make_collision_model(cell_file.cell, cell_file.model)
     here = Situation(cell_file, failed.goal, failed, model)
     end = start + (1 - FOR_PROOF) * options.advice_seconds
     search = _Search(here, Trials(here, options, planner, end))
@@ -76,12 +76,15 @@ def find_advice(
 
 
 def _advice(change: Change, goal: int) -> Advice:
-    edits = "; ".join(
-        f"{edit.place}: {'taken out' if edit.value is None else written(edit.value)}"
-        for edit in change.edits
-    )
+    edits = "; ".join(f"{edit.place}: {_told(edit)}" for edit in change.edits)
     text = f"{change.words} ({edits}): then goal {goal} plans"
     return Advice(change.kind, text, change.edits, change.size)
+
+
+def _told(edit: Edit) -> str:
+    if edit.value is None:
+        return "taken out"
+    return f"now {len(edit.value)} goals" if edit.place == "task" else written(edit.value)
 
 
 def _blaming(cause: Reason, body: str) -> Reason:

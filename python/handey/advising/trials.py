@@ -148,7 +148,8 @@ class Trials:
             cell = assemble_like(entry, self.here.cell_file, measured, change.robot)
         except InvalidInput:
             return None
-        model = _core.make_collision_model(cell.cell)
+        model = _core.make_collision_model(cell.cell, self.here.model)
+        cell = replace(cell, model=model)
         if self._is_intricate:
             return cell if self._contacts(cell, model) <= self._known_contacts else None
         if find_refusals(entry, cell.cell, model):
