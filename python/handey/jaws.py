@@ -22,6 +22,8 @@ def wider_than_jaws(part: _core.Body, gripper: _core.Gripper) -> float:
     if len(part.shapes) != 1:
         return 0.0
     mesh = _core.tessellate(part.shapes[0], outer=False)
+    if np.ptp(np.asarray(mesh.vertices), axis=0).min() <= gripper.max_opening:
+        return 0.0  # no such ball fits into its box
     if not _core.is_convex(mesh):
         return 0.0
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
