@@ -44,3 +44,13 @@ def test_a_part_is_carried_past_what_a_real_camera_saw(name, tmp_path):
     assert result.plan is not None, result.report.reasons
     report = handey.check(path, result.plan)
     assert report.ok, str(report)
+
+
+@needs_data
+@pytest.mark.parametrize("goal", [(0.5, 0.3), (0.4, 0.35)])
+def test_a_part_is_carried_past_all_of_an_image_that_was_not_cropped(goal, tmp_path):
+    path = write_cell(DATA / "mosd_learn18.pcd", tmp_path, goal=goal, crop=(0, 480, 0, 640))
+    result = handey.plan(handey.load_cell(path))
+    assert result.plan is not None, result.report.reasons
+    report = handey.check(path, result.plan)
+    assert report.ok, str(report)
