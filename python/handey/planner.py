@@ -232,7 +232,7 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     grasps = Grasps(work, options, report)
     regrasp = Regrasp(work, options)
     first = grasps.first(regrasp.is_needed, lambda: work.give_up(False))
-    carry = tries.reach_any(first) or regrasp.run(0)
+    carry = tries.reach_any(first) or regrasp.run(0, tries.regrasps_worth(0))
     if carry is None and regrasp.was_needed:
         # The tables are samples: what they have not may be found where all is looked at.
         grasps = Grasps(work, options, report)
@@ -241,7 +241,7 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
         work.give_up(True)
     for round_ in range(1, len(options.sampling_rounds)):
         carry = carry or tries.again(round_) or tries.reach_any(grasps.rest())
-        carry = carry or regrasp.run(round_)
+        carry = carry or regrasp.run(round_, tries.regrasps_worth(round_))
     regrasp.tell(report)
     if carry is not None:
         return planned(report, regrasp.words, carry) if carry.regrasps else carry

@@ -77,8 +77,13 @@ class Regrasp:
         faces = choice != kinds.BeyondFaces and self._has_common(self._dense)
         return not faces and not (choice != kinds.TwoFaces and self._has_common(self._beyond))
 
-    def run(self, round_: int) -> Carry | None:
-        """A carry with regrasps, planned with the budgets of a round, or None; once per round."""
+    def run(self, round_: int, most: int | None = None) -> Carry | None:
+        """A carry with regrasps, planned with the budgets of a round, or None; once per round.
+
+        Args:
+            round_: of attempts.
+            most: sequences whose motions are planned; None: as the options say.
+        """
         if round_ < self._next:
             return None
         self._next = round_ + 1
@@ -87,6 +92,7 @@ class Regrasp:
             search.forgive()
         sequences = self.options.regrasp.sequences
         left = sequences[min(round_, len(sequences) - 1)]
+        left = left if most is None else min(left, most)
         for tiers in self._tiers:
             for regrasps in range(1, self.options.regrasp.most_regrasps + 1):
                 for tier in tiers:

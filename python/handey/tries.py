@@ -31,10 +31,12 @@ __all__ = ["Tries", "planned"]
 
 # Choice: what hundreds of grasps alike fell at, more of them will fall at too. Grasps whose gross
 # motions may fall in one pass; that get each greater budget; that are approached by search.
-MOST_FALLEN = 40
+MOST_FALLEN = 24
+MOST_IN_ALL = 48  # the same in all passes
 MOST_CAUGHT = 10  # that get a greater budget before all have had the least
 MOST_AGAIN = (6, 3, 1)
-MOST_SEARCHED = 6
+MOST_SEARCHED = 10
+FEW_REGRASPS = (3, 1, 0)  # sequences tried where many grasps have fallen at their gross motions
 WAITING = 3  # Choice: grasps that fell before the first of them gets a greater budget
 
 
@@ -60,6 +62,7 @@ class Tries:
         waiting: by round, what fell at a gross motion in the round before.
         slid: grasps to which no slide led, still to be approached by search.
         stalled: how many of these since one was searched for.
+        searched: to how many a way was searched for.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
         unconnected: attempts that fell at a gross motion.
@@ -72,17 +75,28 @@ class Tries:
     waiting: dict[int, list[tuple[_Try, Reach]]] = field(default_factory=dict)
     slid: list[_Try] = field(default_factory=list)
     stalled: int = 0
+    searched: int = 0
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
     unconnected: int = 0
     caught: dict[int, int] = field(default_factory=dict)
+
+    def regrasps_worth(self, round_: int) -> int | None:
+        """How many sequences of regrasps are worth a try; None: as many as may be.
+
+        Where the motions of many grasps that serve both ends have fallen, other grasps are seldom
+        what helps.
+        """
+        if self.unconnected < MOST_FALLEN:
+            return None
+        return FEW_REGRASPS[min(round_, len(FEW_REGRASPS) - 1)]
 
     def reach_any(self, grasps: Iterator[Grasp]) -> Carry | None:
         """Steps 4 to 6 with the least budget for one grasp after the other: the first that serves.
 
         Every grasp is tried with up to two configurations of the arm.
         """
-        stop_at = self.unconnected + MOST_FALLEN
+        stop_at = min(self.unconnected + MOST_FALLEN, MOST_IN_ALL)
         for pair, aim in grasps:
             if self.unconnected >= stop_at:
                 return None
@@ -102,8 +116,10 @@ class Tries:
         What fell by its budget is tried with the next greater one first.
         """
         slid, self.slid = self.slid, []
-        for number, attempt in enumerate(slid[:MOST_SEARCHED], 1):
+        slid = slid[: max(0, MOST_SEARCHED - self.searched)]
+        for number, attempt in enumerate(slid, 1):
             self._announce(f"by search, grasp {number} of {len(slid)}")
+            self.searched += 1
             carry = self._reach(attempt, 0)
             if carry is not None:
                 return carry
@@ -116,7 +132,9 @@ class Tries:
                 if carry is not None:
                     return carry
         fallen, self.fallen = self.fallen, []
-        for number, attempt in enumerate(fallen[: self.options.most_by_arm], 1):
+        # Half as many with each greater budget.
+        fallen = fallen[: -(-self.options.most_by_arm // 2 ** (round_ - 1))]
+        for number, attempt in enumerate(fallen, 1):
             self._announce(f"by the whole arm, grasp {number} of {len(fallen)}")
             carry = self._reach(attempt, round_)
             if carry is not None:
@@ -135,8 +153,9 @@ class Tries:
                 carry = self._carry(*waiting.pop(0), round_)
                 if carry is not None:
                     return carry
-        if self.stalled >= WAITING:
+        if self.stalled >= WAITING and self.searched < MOST_SEARCHED:
             self.stalled = 0
+            self.searched += 1
             return self._reach(self.slid.pop(0), 0)
         return None
 
