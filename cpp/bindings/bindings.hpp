@@ -20,6 +20,7 @@ void bind_placing(pybind11::module_& m);    // parts of world and collision
 void bind_collision(pybind11::module_& m);
 void bind_grasp(pybind11::module_& m);
 void bind_legality(pybind11::module_& m);  // part of grasp
+void bind_diagnosis(pybind11::module_& m);  // part of grasp
 void bind_regrasp(pybind11::module_& m);      // part of grasp
 void bind_proofs(pybind11::module_& m);       // parts of grasp and cspace
 void bind_grasp_plane(pybind11::module_& m);  // part of approach

@@ -35,6 +35,7 @@ PYBIND11_MODULE(_core, m) {
   bind_placing(m);
   bind_grasp(m);
   bind_legality(m);
+  bind_diagnosis(m);
   bind_regrasp(m);
   bind_grasp_plane(m);
   bind_approach(m);

@@ -71,6 +71,7 @@ Args:
       .def_readonly("q_pick", &GraspPose::q_pick, "Legal at the origin: list of (dof,) [rad].")
       .def_readonly("q_place", &GraspPose::q_place, "Legal at the destination.");
   py::enum_<FallKind>(m, "FallKind", "The test at which hand poses fell.")
+      .value("TooWide", FallKind::TooWide)
       .value("LittleContact", FallKind::LittleContact)
       .value("Slips", FallKind::Slips)
       .value("Turns", FallKind::Turns)

@@ -66,6 +66,7 @@ class Funnel:
         grasps: that were taken up, by number.
         regrasping: why step 7 found nothing.
         no_features: that there is no pair at all, by the features looked for.
+        diagnosis: a closer look at hand poses, if no grasp was legal.
     """
 
     work: Workspace | None = None
@@ -74,6 +75,7 @@ class Funnel:
     grasps: dict[int, _Grasp] = field(default_factory=dict)
     regrasping: list[Reason] = field(default_factory=list)
     no_features: list[Reason] = field(default_factory=list)
+    diagnosis: _core.Diagnosis | None = None
 
     # While planning.
 

@@ -16,10 +16,12 @@ if TYPE_CHECKING:
     from handey.pick_and_place import Carry
 
 __all__ = [
+    "ENDS",
     "Names",
     "at_end",
     "of_carry",
     "of_fallen",
+    "of_obstacle",
     "of_obstructed",
     "of_rejected",
     "plain",
@@ -123,6 +125,30 @@ def of_fallen(fallen: _core.Fallen, names: Names) -> Reason:
     return Reason(
         kind, "reachable", text + at_end(end), fallen.count, end, bodies, mover, joint, by
     )
+
+
+def of_obstacle(obstacle: _core.GraspObstacle, names: Names) -> Reason:
+    """What stands in the way of hand poses."""
+    end, least = ENDS[obstacle.end.name], float(obstacle.least)
+    by = None if least < 0.0 else least
+    kind = _FALLEN.get(obstacle.kind.name, "too_wide")
+    stage, joint, mover = KINDS[kind], "", ""
+    bodies: tuple[str, ...] = ()
+    if kind == "joint_limit":
+        joint, text = names.joints[obstacle.joint], names.past(obstacle.joint, least)
+    elif kind == "collision":
+        mover, bodies = names.mover(obstacle.mover), (names.mover(obstacle.body),)
+        text = names.hits(obstacle.mover, obstacle.body, by)
+    elif kind == "out_of_reach":
+        text = f"the wrist's centre is {1e3 * least:.0f} mm out of reach"
+    elif kind == "too_wide":
+        text = f"the part is {1e3 * least:.1f} mm too wide for the jaws"
+    elif kind == "turns":
+        text = f"the part would turn in the jaws, held {1e3 * least:.0f} mm off its balance"
+    else:
+        text = "the part would slip: the jaws do not hold its weight by friction"
+    count = max(obstacle.alone, obstacle.in_fewest)
+    return Reason(kind, stage, text + at_end(end), count, end, bodies, mover, joint, by)
 
 
 def of_carry(carry: Carry) -> Reason:

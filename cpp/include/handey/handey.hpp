@@ -25,6 +25,7 @@
 #include "handey/world/resting.hpp"
 #include "handey/world/support_faces.hpp"
 // collision
+#include "handey/collision/all_hits.hpp"
 #include "handey/collision/box_certificate.hpp"
 #include "handey/collision/certificate.hpp"
 #include "handey/collision/checker.hpp"
@@ -36,6 +37,7 @@
 // grasp
 #include "handey/grasp/backproject.hpp"
 #include "handey/grasp/compatibility.hpp"
+#include "handey/grasp/diagnosis.hpp"
 #include "handey/grasp/fallen.hpp"
 #include "handey/grasp/features.hpp"
 #include "handey/grasp/hand_reach.hpp"

@@ -64,7 +64,8 @@ std::string Tally::worst(int tried) const {
     const bool reached = key.kind == FallKind::Collision;
     const bool unreachable = key.kind == FallKind::OutOfReach || key.kind == FallKind::JointLimit;
     const int end = key.end == GraspEnd::Destination ? 1 : 0;
-    return reached ? 4 + end : unreachable ? 2 + end : static_cast<int>(key.kind);
+    const bool has_contact = key.kind != FallKind::LittleContact;
+    return reached ? 4 + end : unreachable ? 2 + end : has_contact ? 1 : 0;
   };
   const FallKey* key = nullptr;
   const Fallen* worst = nullptr;

@@ -13,6 +13,7 @@
 namespace handey {
 
 enum class FallKind {
+  TooWide,        ///< for the jaws; in a diagnosis only
   LittleContact,  ///< the pads would lie on too little of the features
   Slips,          ///< friction does not hold the part's weight
   Turns,          ///< the part's weight would turn it in the jaws
