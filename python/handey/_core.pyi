@@ -40,6 +40,7 @@ __all__: list[str] = [
     "DepartureResult",
     "DepthImage",
     "DepthMapOptions",
+    "Diagnosis",
     "EdgeResult",
     "EdgeStatus",
     "Exhaustion",
@@ -54,6 +55,7 @@ __all__: list[str] = [
     "FingerJoint",
     "FreeSpaceOptions",
     "GraspEnd",
+    "GraspObstacle",
     "GraspPose",
     "GraspScene",
     "Gripper",
@@ -163,6 +165,7 @@ __all__: list[str] = [
     "cover_heights",
     "cross_section",
     "describe_scene",
+    "diagnose_grasps",
     "exhaust_grasps",
     "explained_pixels",
     "find_compatible_grasps",
@@ -2535,6 +2538,7 @@ class FallKind:
     LittleContact: typing.ClassVar[FallKind]
     OutOfReach: typing.ClassVar[FallKind]
     Slips: typing.ClassVar[FallKind]
+    TooWide: typing.ClassVar[FallKind]
     Turns: typing.ClassVar[FallKind]
     __members__: typing.ClassVar[dict[str, FallKind]]
     @typing.overload
@@ -2725,6 +2729,116 @@ class LegalGraspSearch:
     def is_done(self) -> bool:
         """
         No candidate is left, or enough are legal.
+        """
+
+class GraspObstacle:
+    """
+    Something that stands in the way of hand poses.
+    """
+    @property
+    def X_PH(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        Grasp frame in the part for which it is so, (4, 4).
+        """
+    @property
+    def alone(self) -> int:
+        """
+        Of these those that are legal without it.
+        """
+    @property
+    def body(self) -> str:
+        """
+        Of a collision: what was met.
+        """
+    @property
+    def carries(self) -> bool:
+        """
+        The part stands on the body at that end.
+        """
+    @property
+    def end(self) -> GraspEnd:
+        """
+        GraspEnd.
+        """
+    @property
+    def in_fewest(self) -> int:
+        """
+        Hand poses of fewest obstacles that have it among them.
+        """
+    @property
+    def joint(self) -> int:
+        """
+        Index of the joint past its limit; -1: none.
+        """
+    @property
+    def kind(self) -> FallKind:
+        """
+        FallKind.
+        """
+    @property
+    def least(self) -> float:
+        """
+        By how much it is in the way at least [m], of a joint [rad]; -1: not known.
+        """
+    @property
+    def met(self) -> int:
+        """
+        Hand poses in whose way it is.
+        """
+    @property
+    def mover(self) -> str:
+        """
+        Link that met it first, or 'hand'.
+        """
+    @property
+    def opening(self) -> float:
+        """
+        As that hand comes [m].
+        """
+    @property
+    def width(self) -> float:
+        """
+        Of that hand, closed on the part [m].
+        """
+
+class Diagnosis:
+    """
+    What keeps hand poses from being legal at both ends.
+    """
+    @property
+    def fewest(self) -> int:
+        """
+        Obstacles of the hand poses that have fewest.
+        """
+    @property
+    def free_at_destination(self) -> int:
+        """
+        Hand poses legal there.
+        """
+    @property
+    def free_at_origin(self) -> int:
+        """
+        Hand poses legal there.
+        """
+    @property
+    def legal(self) -> int:
+        """
+        Hand poses, at both ends.
+        """
+    @property
+    def looked_at(self) -> int:
+        """
+        Hand poses that fit the part itself.
+        """
+    @property
+    def misfits(self) -> int:
+        """
+        Hand poses at which the hand meets the part.
+        """
+    @property
+    def obstacles(self) -> list[GraspObstacle]:
+        """
+        GraspObstacle, those first that alone are in the way of most.
         """
 
 class PartGrasps:
@@ -4935,6 +5049,33 @@ def exhaust_grasps(
     Raises:
         InvalidInput: for no place, poses that are not rigid, an unknown part, a part in the hand, bad
             options.
+    """
+
+def diagnose_grasps(
+    scene: GraspScene,
+    *,
+    ranking: RankingOptions = ...,
+    legality: LegalityOptions = ...,
+    most_poses: typing.SupportsInt | typing.SupportsIndex = 2000,
+    most_pairs: typing.SupportsInt | typing.SupportsIndex = 24,
+    wider: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+) -> Diagnosis:
+    """
+    What alone keeps most hand poses from being legal at both ends.
+
+    Args:
+        scene: GraspScene.
+        ranking: RankingOptions.
+        legality: LegalityOptions.
+        most_poses: hand poses looked at.
+        most_pairs: pairs of features that they are spread over, the best.
+        wider: pairs are looked at that the jaws miss by so much [m].
+
+    Returns:
+        Diagnosis.
+
+    Raises:
+        InvalidInput: for a scene with a part in the hand, an unknown part, bad options.
     """
 
 def find_feature_pairs(part: Body, gripper: Gripper, options: FeatureOptions = ...) -> FeaturePairs:

@@ -49,6 +49,7 @@ def quick_options(options: PlanOptions | None = None, deadline: float | None = N
         thorough=False,
         regrasp=regrasp,
         prove=False,
+        diagnosis=False,
     )
 
 

@@ -71,8 +71,9 @@ def _of_diagnosis(
     if no_regrasp and joins and small:
         return no_regrasp[0]
     cause = of_obstacle(best, names)
-    if cause.kind == "too_wide":
-        return next((r for r in stages["spanned"].reasons if r.kind == "too_wide"), cause)
+    if cause.kind in ("too_wide", "slips"):  # the funnel has their numbers
+        told = [r for stage in stages.values() for r in stage.reasons if r.kind == cause.kind]
+        return next(iter(told), cause)
     share = f"in the way of {best.met} of {diagnosis.looked_at} hand poses"
     if best.alone:
         share = f"alone keeps {best.alone} of {diagnosis.looked_at} hand poses from being legal"

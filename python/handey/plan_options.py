@@ -51,6 +51,7 @@ class PlanOptions:
         thorough: the last round may take all the time that its gross motions want.
         regrasp: budgets of step 7.
         prove: look for a proof that there is no plan where the first tries fail.
+        diagnosis: where no grasp is legal, look for what alone keeps hand poses from being so.
         advice: where no plan is found, look for the nearest change with which there is one.
         advice_seconds: of wall-clock time for that.
 
@@ -71,6 +72,7 @@ class PlanOptions:
     thorough: bool = True
     regrasp: RegraspOptions = field(default_factory=RegraspOptions)
     prove: bool = True
+    diagnosis: bool = True
     advice: bool = True
     advice_seconds: float = 1.0
 

@@ -22,7 +22,7 @@ from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.coverage import tell_coverage
 from handey.errors import Fault, Interrupted, InvalidInput, Stopped
-from handey.explain import explain
+from handey.explain import diagnose, explain
 from handey.grasps import Grasps
 from handey.in_the_way import unstable, would_fall
 from handey.moves import Hands
@@ -198,6 +198,8 @@ def _reach_goals(
     except Proved as end:
         report.goals[end.goal].prove(end.proof.text, end.proof.cause)
         return False
+    if moves is None and options.diagnosis:
+        diagnose(report, options, clock)
     for move in moves or []:
         _take_over(state, move.target, move.goal, move.carry, clock, report)
     return moves is not None

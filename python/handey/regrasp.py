@@ -22,7 +22,7 @@ from handey.grasp_table import GraspTable, GraspTableOptions, grasp_table, joine
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
 from handey.reasons import Reason
-from handey.regrasp_search import RegraspSearch, clears_ground, compatible
+from handey.regrasp_search import NO_SUPPORT, RegraspSearch, clears_ground, compatible
 from handey.report import GoalReport
 
 __all__ = ["Regrasp"]
@@ -124,7 +124,8 @@ class Regrasp:
             why = [*self._best(), *searches[-1].told.reasons]
             report.reasons = [*why, *report.reasons]
             if why and report.looked is not None:
-                report.looked.regrasping = [Reason("no_regrasp", "connected", why[0])]
+                text = why[0] if searches[-1].finder.has_support else NO_SUPPORT
+                report.looked.regrasping = [Reason("no_regrasp", "connected", text)]
 
     def _best(self) -> list[str]:
         """What the sequence that got farthest fell at."""

@@ -56,6 +56,9 @@ class RegraspOptions:
     sequences: tuple[int, ...] = (40, 8, 4)
 
 
+NO_SUPPORT = "nothing is a support on which the part could be put down on the way"
+
+
 @dataclass
 class _Needs:
     """What one resting pose is for, with so many regrasps: groups of grasps, all of them needed."""
@@ -155,7 +158,7 @@ class RegraspSearch:
             self._tell_illegal_ends()
             return None
         if not self.finder.has_support:
-            self.told.reason("nothing is a support on which the part could be put down on the way")
+            self.told.reason(NO_SUPPORT)
             return None
         needs = self.needs(regrasps)
         if not needs:

@@ -25,7 +25,7 @@ using grasp::EndResult;
 using grasp::InTheWay;
 
 constexpr double kHugeForce = 1e6;  // [N]: holds whatever is to be looked at
-constexpr int kMostDepths = 24;     // Choice: overlaps of one obstacle that are measured
+constexpr int kMostDepths = 64;     // Choice: overlaps of one obstacle that are measured
 // Choice: where the hand meets more bodies at an end, the arm is not looked at.
 constexpr std::size_t kMostHandHits = 1;
 
@@ -109,7 +109,8 @@ class Sampler {
     if (needed > gripper_.max_opening) add(FallKind::TooWide, needed - gripper_.max_opening);
     const grasp::PadContact contact = grasp::pad_contact(pair, pose, gripper_);
     const double excess = hold_.excess(pair, contact);
-    if (excess > 0.0) add(hold_.slips() ? FallKind::Slips : FallKind::Turns, excess);
+    if (excess > 0.0 && hold_.slips()) add(FallKind::Slips, 0.0);
+    if (excess > 0.0 && !hold_.slips()) add(FallKind::Turns, excess);
     return sample;
   }
 

@@ -18,7 +18,7 @@ namespace handey {
 struct DiagnosisOptions {
   RankingOptions ranking;
   LegalityOptions legality;
-  int most_poses = 1200;  ///< hand poses looked at
+  int most_poses = 2000;  ///< hand poses looked at
   int most_pairs = 24;    ///< pairs of features that they are spread over, the best
   double wider = 0.05;    ///< pairs are looked at that the jaws miss by so much [m]
 };
