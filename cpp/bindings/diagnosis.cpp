@@ -1,7 +1,9 @@
-// Why no grasp is legal at both ends.
+// Why no grasp is legal at both ends; what stands round one, or in the way of a motion.
 #include "handey/grasp/diagnosis.hpp"
 
-#include "bindings.hpp"
+#include "configurations.hpp"
+#include "handey/approach/enclosure.hpp"
+#include "handey/collision/all_hits.hpp"
 #include "interruptible.hpp"
 
 namespace handey::bindings {
@@ -63,6 +65,36 @@ Returns:
 
 Raises:
     InvalidInput: for a scene with a part in the hand, an unknown part, bad options.)");
+  m.def("find_enclosing", &find_enclosing, "checker"_a, "solver"_a, "start"_a, "distance"_a = 0.1,
+        Unlocked(),
+        R"(What stands round the hand where it is: what it meets that leaves along straight lines.
+
+Args:
+    checker: CollisionChecker of the cell, with what is held.
+    solver: SphericalWristSolver of the cell's robot.
+    start: Configuration.
+    distance: length of the lines [m].
+
+Returns:
+    Hits, those first that end most of the lines.
+
+Raises:
+    InvalidInput: for wrong lengths or numbers out of range.)");
+  m.def("find_hits_along", &find_hits_along, "checker"_a, "a"_a, "b"_a, "samples"_a = 64,
+        Unlocked(),
+        R"(What is met on the straight joint edge between two configurations.
+
+Args:
+    checker: CollisionChecker of the cell, with what is held.
+    a: Configuration.
+    b: Configuration.
+    samples: configurations looked at.
+
+Returns:
+    Hits, those first that are met at most of them.
+
+Raises:
+    InvalidInput: for wrong lengths or numbers out of range.)");
 }
 
 }  // namespace handey::bindings

@@ -169,7 +169,9 @@ __all__: list[str] = [
     "exhaust_grasps",
     "explained_pixels",
     "find_compatible_grasps",
+    "find_enclosing",
     "find_feature_pairs",
+    "find_hits_along",
     "find_legal_grasps",
     "find_overlaps",
     "find_standing_places",
@@ -6166,4 +6168,48 @@ def prove_layer(
     Raises:
         InvalidInput: for a waist angle outside its limits, a wrist range of the wrong length or not in
             order, an opening that is not the gripper's, or options out of range.
+    """
+
+def find_enclosing(
+    checker: CollisionChecker,
+    solver: SphericalWristSolver,
+    start: Configuration,
+    distance: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+) -> list[Hit]:
+    """
+    What stands round the hand where it is: what it meets that leaves along straight lines.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held.
+        solver: SphericalWristSolver of the cell's robot.
+        start: Configuration.
+        distance: length of the lines [m].
+
+    Returns:
+        Hits, those first that end most of the lines.
+
+    Raises:
+        InvalidInput: for wrong lengths or numbers out of range.
+    """
+
+def find_hits_along(
+    checker: CollisionChecker,
+    a: Configuration,
+    b: Configuration,
+    samples: typing.SupportsInt | typing.SupportsIndex = 64,
+) -> list[Hit]:
+    """
+    What is met on the straight joint edge between two configurations.
+
+    Args:
+        checker: CollisionChecker of the cell, with what is held.
+        a: Configuration.
+        b: Configuration.
+        samples: configurations looked at.
+
+    Returns:
+        Hits, those first that are met at most of them.
+
+    Raises:
+        InvalidInput: for wrong lengths or numbers out of range.
     """

@@ -17,13 +17,15 @@ __all__ = ["diagnose", "explain"]
 
 
 def diagnose(report: Report, options: PlanOptions, clock: StageClock) -> None:
-    """Look closer at the hand poses of goals that failed without a legal one."""
+    """Look closer at goals that failed: at grasps that were tried, or at hand poses if none was."""
     for goal in report.goals:
         looked = goal.looked
-        if goal.status != "failed" or looked is None or looked.grasps or goal.refusals:
+        if goal.status != "failed" or looked is None or looked.work is None or goal.refusals:
             continue
-        assert looked.work is not None
         with clock("diagnosis"):
+            if looked.grasps:
+                looked.look_round()
+                continue
             looked.diagnosis = _core.diagnose_grasps(
                 looked.work.scene, ranking=options.ranking, legality=options.legality
             )

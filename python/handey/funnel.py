@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import zip_longest
 
 from handey import _core
@@ -20,6 +21,7 @@ from handey.wording import Names, of_carry, of_fallen, of_obstructed, of_rejecte
 __all__ = ["Funnel"]
 
 MOST_TRIED = 200  # Choice: hand poses that are kept for pictures
+MOST_LOOKED_ROUND = 12  # Choice: grasps round which is looked what stands in their way
 
 
 @dataclass
@@ -48,11 +50,16 @@ class _Pair:
 
 @dataclass
 class _Grasp:
-    """A grasp that was taken up, and how far it got; without a reason it was planned with."""
+    """A grasp that was taken up, and how far it got; what it met, if that was asked."""
 
     aim: _core.GraspPose
+    carry: Carry
     approached: bool = False
-    reason: Reason | None = None
+    hit: _core.Hit | None = None
+
+    def reason(self, names: Names) -> Reason | None:
+        """Why it fell; None if it was planned with."""
+        return None if self.carry.stage == "done" else of_carry(self.carry, self.hit, names)
 
 
 @dataclass
@@ -104,11 +111,16 @@ class Funnel:
 
     def tried(self, grasp: int, aim: _core.GraspPose, carry: Carry, approached: bool) -> None:
         """How far a grasp got, last."""
-        known = self.grasps.setdefault(grasp, _Grasp(aim))
-        known.aim = aim
+        known = self.grasps.setdefault(grasp, _Grasp(aim, carry))
         if approached or not known.approached:
-            known.reason = None if carry.stage == "done" else of_carry(carry)
+            known.aim, known.carry = aim, carry
         known.approached |= approached
+
+    def look_round(self, most: int = MOST_LOOKED_ROUND) -> None:
+        """Ask what stood in the way of the grasps that got farthest."""
+        farthest = sorted(self.grasps.values(), key=lambda grasp: not grasp.approached)
+        for grasp in farthest[:most]:
+            grasp.hit = next(iter(grasp.carry.met()), None)
 
     # When the report is asked for.
 
@@ -133,19 +145,18 @@ class Funnel:
         return list(stages.values())
 
     def _fallen(self, pairs: Iterable[_Pair]) -> Iterator[Reason]:
-        names = None
         for pair in pairs:
             look = pair.best_look()
             for fallen in [] if look is None else look.fallen:
-                names = names or self.names
-                yield of_fallen(fallen, names)
+                yield of_fallen(fallen, self.names)
 
     def _grasps_at(self, stage: str) -> Stage:
         came = [g for g in self.grasps.values() if g.approached or stage == "approached"]
-        fell = [g.reason for g in came if g.reason is not None and g.reason.stage == stage]
+        reasons = [grasp.reason(self.names) for grasp in came]
+        fell = [reason for reason in reasons if reason is not None and reason.stage == stage]
         return Stage(stage, len(came), len(came) - len(fell), merged(fell))
 
-    @property
+    @cached_property
     def names(self) -> Names:
         """Of the robot."""
         assert self.work is not None
@@ -153,24 +164,20 @@ class Funnel:
 
     def poses(self, most: int = MOST_TRIED) -> list[Tried]:
         """Hand poses for pictures: grasps that were taken up; of each pair the nearest misses."""
-        taken = [
-            _tried(
-                grasp.aim,
-                grasp.reason.stage if grasp.reason else "",
-                grasp.reason.text if grasp.reason else "",
-            )
-            for grasp in list(self.grasps.values())[-most // 2 :]
-        ]
+        taken = []
+        for grasp in list(self.grasps.values())[-most // 2 :]:
+            reason = grasp.reason(self.names)
+            stage, text = (reason.stage, reason.text) if reason else ("", "")
+            taken.append(_tried(grasp.aim, stage, text))
         looks = [pair.best_look() for pair in self.pairs.values() if pair.is_free]
         by_pair = [look.fallen for look in looks if look is not None]
-        names = self.names if by_pair else None
         for turn in zip_longest(*by_pair):
             for fallen in turn:
-                if fallen is None or names is None:
+                if fallen is None:
                     continue
                 if len(taken) == most:
                     return taken
-                taken.append(_tried(fallen, "reachable", of_fallen(fallen, names).text))
+                taken.append(_tried(fallen, "reachable", of_fallen(fallen, self.names).text))
         return taken
 
 

@@ -135,8 +135,7 @@ class Carry:
     Attributes:
         stage: the last stage reached; "done" if all of it was planned.
         reason: why it stopped.
-        mover: what of the robot, or "held NAME", met something there; empty if that is not known.
-        bodies: what it met.
+        met: asked what stands in the way there: pairs of bodies, the most frequent first.
         motions: the whole of it when done.
         X_HP: the part in the grasp frame, shape (4, 4).
         end: where the arm is afterwards.
@@ -150,8 +149,7 @@ class Carry:
     grasp: _core.GraspPose | None = None
     end: _core.Configuration | None = None
     regrasps: int = 0
-    mover: str = ""
-    bodies: tuple[str, ...] = ()
+    met: Callable[[], list[_core.Hit]] = field(default=list, repr=False)
 
 
 @dataclass
@@ -198,17 +196,16 @@ def find_reach(
         approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
         grasp, path = approach.grasp, list(approach.path)
         planner = PLANNERS[approach.planner.name]
+        inside = _at(q_pick, aim.opening)
         if not approach and options.arm is not None:
-            checker = (
-                _core.join_destination(scene).checker()
-                if options.approach.destination_obstacles_join
-                else _core.CollisionChecker(work.model, scene.cell)
-            )
-            inside = _at(q_pick, aim.opening)
-            path = way_out(work.solver, checker, inside, options.arm)[::-1]
+            path = way_out(work.solver, _coming_in(work, options), inside, options.arm)[::-1]
             grasp, planner = aim, PLANNERS["Arm"]
     if not path:
-        return Carry("approach", approach.reason)
+        return Carry(
+            "approach",
+            approach.reason,
+            met=lambda: list(_core.find_enclosing(_coming_in(work, options), work.solver, inside)),
+        )
     work.given["approach", planner] += 1
     q = path[-1].q
     X_WP = scene.cell.parts[scene.part].X_WB
@@ -230,18 +227,20 @@ def find_reach(
                 options.approach.certificate,
             )
         if not closing.is_free:
-            return Carry("approach", f"the closing fingers meet {closing.hit.b}")
+            text = f"the closing fingers meet {closing.hit.b}"
+            return Carry("approach", text, met=lambda: [closing.hit])
         out = _ways_out(work, options)
         depart = _lift(work, scene.cell, _at(q, grasp.width), X_HP, out)
     if not depart:
-        return Carry("depart", depart.reason)
+        held = scene.cell.with_held(scene.part, X_HP)
+        return _fell(work, "depart", depart.reason, held, q, grasp.width)
     work.given["depart", depart.planner] += 1
 
-    reasons: list[tuple[str, str]] = []
+    reasons: list[Carry] = []
     others = _placings(work, pair, grasp, q, X_HP, options, reasons)
     first = next(others, None)
     if first is None:
-        return Carry(*(reasons or [("deposit", "no configuration at the destination")])[-1])
+        return (reasons or [Carry("deposit", "no configuration at the destination")])[-1]
     planners = (planner, depart.planner)
     return Reach(grasp, path, depart.path, planners, X_HP, [first], others)
 
@@ -253,7 +252,7 @@ def _placings(
     q: np.ndarray,
     X_HP: np.ndarray,
     options: DirectOptions,
-    reasons: list[tuple[str, str]],
+    reasons: list[Carry],
 ) -> Iterator[Placing]:
     """Ways to put the part down and leave it, the arm nearest to `q` first.
 
@@ -266,7 +265,8 @@ def _placings(
             out = replace(_ways_out(work, options), roomier=None)
             deposit = _lift(work, goal_cell, _at(q_place, grasp.width), X_HP, out)
         if not deposit:
-            reasons.append(("deposit", deposit.reason))
+            held = goal_cell.with_held(scene.part, X_HP)
+            reasons.append(_fell(work, "deposit", deposit.reason, held, q_place, grasp.width))
             continue
         work.given["deposit", deposit.planner] += 1
         withdraw = _withdraw(work, goal_cell, grasp, q_place, options)
@@ -275,7 +275,34 @@ def _placings(
             planners = deposit.planner, withdraw.planner
             yield Placing(deposit.path[::-1], withdraw.path, planners, not deposit.has_room)
         else:
-            reasons.append(("withdraw", withdraw.reason))
+            reason = withdraw.reason
+            reasons.append(_fell(work, "withdraw", reason, goal_cell, q_place, grasp.opening))
+
+
+def _coming_in(work: Workspace, options: DirectOptions) -> _core.CollisionChecker:
+    """Of the open hand as it comes in."""
+    if options.approach.destination_obstacles_join:
+        return _core.join_destination(work.scene).checker()
+    return _core.CollisionChecker(work.model, work.scene.cell)
+
+
+def _fell(
+    work: Workspace, stage: str, reason: str, cell: _core.Cell, q: np.ndarray, opening: float
+) -> Carry:
+    """A grasp that fell with the hand at `q`; what stands round it is looked for when asked."""
+
+    def met() -> list[_core.Hit]:
+        checker = _core.CollisionChecker(work.model, cell)
+        return list(_core.find_enclosing(checker, work.solver, _at(q, opening)))
+
+    return Carry(stage, reason, met=met)
+
+
+def _between(
+    checker: _core.CollisionChecker, start: _core.Configuration, goal: _core.Configuration
+) -> Callable[[], list[_core.Hit]]:
+    """What stands between two configurations."""
+    return lambda: list(_core.find_hits_along(checker, start, goal))
 
 
 def _lift(
@@ -317,7 +344,8 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
             work.table,
         )
     if not transit:
-        return Carry("transit", transit.reason)
+        met = _between(checker, work.current, reach.approach[0])
+        return Carry("transit", transit.reason, met=met)
 
     held = scene.cell.with_held(scene.part, reach.X_HP)
     checker = _core.CollisionChecker(work.model, held)
@@ -327,7 +355,8 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
         with work.clock("transfer"):
             transfer = go(checker, reach.depart[-1], _goals(reach), options.gross, work.table)
     if not transfer:
-        return Carry("transfer", transfer.reason)
+        met = _between(checker, reach.depart[-1], _goals(reach)[0])
+        return Carry("transfer", transfer.reason, met=met)
     placing = reach.places[transfer.goal]
 
     q_pick, q_place = reach.approach[-1].q, placing.deposit[-1].q
@@ -349,7 +378,8 @@ def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carr
             checker = _core.CollisionChecker(work.model, goal_cell)
             home = go(checker, end, [_at(work.home, end.opening)], options.gross, work.table)
         if not home:
-            return Carry("home", home.reason)
+            met = _between(checker, end, _at(work.home, end.opening))
+            return Carry("home", home.reason, met=met)
         motions.append(Motion("transit", home.path, search=home.search))
         end = home.path[-1]
     motions = [m for m in motions if m.action not in ("transit", "transfer") or len(m.path) > 1]

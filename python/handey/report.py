@@ -9,13 +9,13 @@ words, which name bodies and numbers.
 from __future__ import annotations
 
 import time
-from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from handey.advice import Advice
+from handey.failure_text import failure_lines
 from handey.reasons import Reason, Stage, Tried
 
 if TYPE_CHECKING:
@@ -205,20 +205,9 @@ class GoalReport:
         """Add to a count of the funnel."""
         self.funnel[stage] = self.funnel.get(stage, 0) + count
 
-    def summary(self, most: int = 6) -> list[str]:
-        """Lines for people: the funnel, then the commonest reasons."""
-        lines = [f"goal {self.goal} ({self.text}): {self.status}"]
-        if self.funnel:
-            lines.append(
-                "  " + ", ".join(f"{count} {stage}" for stage, count in self.funnel.items())
-            )
-        lines += [f"  {reason}" for reason in self.reasons[:most]]
-        if self.status in ("failed", "stopped"):
-            counted = Counter((a.stage, a.reason) for a in self.attempts if a.stage != "done")
-            for (stage, reason), count in counted.most_common(most):
-                times = f" ({count} grasps)" if count > 1 else ""
-                lines.append(f"  {stage}: {reason}{times}")
-        return lines
+    def summary(self) -> list[str]:
+        """Lines for people: why it failed, stage by stage; they fit a screen."""
+        return failure_lines(self)
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as JSON values."""

@@ -122,9 +122,10 @@ def _gross_lines(motions: list[GrossMotion]) -> list[str]:
 
 
 def _attempts(result: PlanResult) -> list[str]:
-    """Every grasp that was tried, and where it fell."""
+    """Every pair that fell, and every grasp that was tried, with where it fell."""
     lines = []
     for goal in result.report.goals:
+        lines += [f"  goal {goal.goal}: {reason}" for reason in goal.reasons]
         for number, attempt in enumerate(goal.attempts):
             why = f": {attempt.reason}" if attempt.reason else ""
             lines.append(f"  goal {goal.goal}, try {number}: {attempt.grasp}: {attempt.stage}{why}")

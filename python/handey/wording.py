@@ -48,6 +48,16 @@ _CARRY = {
     "home": ("home", ""),
 }
 
+_FAILED = {
+    "approach": "no way in to the part",
+    "departure": "no way off with the part",
+    "deposit": "no way in to the goal with the part",
+    "withdrawal": "no way out for the open hand at the goal",
+    "transit": "no motion of the empty hand to the part",
+    "transfer": "no motion with the part to its goal",
+    "home": "no motion back to where the arm rests",
+}
+
 
 def plain(link: str) -> str:
     """A link's name for people: "forearm" for "forearm_link"."""
@@ -151,7 +161,11 @@ def of_obstacle(obstacle: _core.GraspObstacle, names: Names) -> Reason:
     return Reason(kind, stage, text + at_end(end), count, end, bodies, mover, joint, by)
 
 
-def of_carry(carry: Carry) -> Reason:
-    """A grasp that could not be carried through."""
+def of_carry(carry: Carry, hit: _core.Hit | None, names: Names) -> Reason:
+    """A grasp that could not be carried through, with what stood most in its way, if known."""
     kind, end = _CARRY[carry.stage]
-    return Reason(kind, KINDS[kind], carry.reason, end=end, bodies=carry.bodies, mover=carry.mover)
+    if hit is None:
+        return Reason(kind, KINDS[kind], carry.reason, end=end)
+    mover, body = names.mover(hit.a), names.mover(hit.b)
+    text = f"{_FAILED[kind]}: {names.hits(hit.a, hit.b, None)} ({carry.reason})"
+    return Reason(kind, KINDS[kind], text, end=end, bodies=(body,), mover=mover)

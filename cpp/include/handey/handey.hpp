@@ -50,6 +50,7 @@
 #include "handey/approach/bump_lines.hpp"
 #include "handey/approach/clearance_path.hpp"
 #include "handey/approach/departure.hpp"
+#include "handey/approach/enclosure.hpp"
 #include "handey/approach/grid.hpp"
 #include "handey/approach/joined_destination.hpp"
 #include "handey/approach/plane_search.hpp"

@@ -84,6 +84,34 @@ std::vector<Hit> find_hand_hits(CollisionChecker& checker, const Pose& X_RH, dou
   return near_pairs(impl, HitsOf::Hand, clearance);
 }
 
+std::vector<Hit> find_hits_along(CollisionChecker& checker, const Configuration& a,
+                                 const Configuration& b, int samples) {
+  if (samples < 1 || samples > 1000000) {
+    throw InvalidInput("E_RANGE", "samples", "expected 1 to 1000000");
+  }
+  if (a.q.size() != b.q.size()) throw InvalidInput("E_DOF", "b", "has not as many joints as a");
+  std::vector<std::pair<int, Hit>> met;
+  for (int i = 0; i <= samples; ++i) {
+    const double part = static_cast<double>(i) / samples;
+    const Configuration at{a.q + part * (b.q - a.q), a.opening + part * (b.opening - a.opening)};
+    for (const Hit& hit : find_all_hits(checker, at)) {
+      const auto known = std::find_if(met.begin(), met.end(), [&](const auto& one) {
+        return one.second.a == hit.a && one.second.b == hit.b;
+      });
+      if (known == met.end()) {
+        met.emplace_back(1, hit);
+      } else {
+        ++known->first;
+      }
+    }
+  }
+  std::stable_sort(met.begin(), met.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  std::vector<Hit> hits;
+  for (const auto& [count, hit] : met) hits.push_back(hit);
+  return hits;
+}
+
 double hand_depth(CollisionChecker& checker, const Pose& X_RH, double opening,
                   const std::string& body) {
   CollisionChecker::Impl& impl = checker.impl();

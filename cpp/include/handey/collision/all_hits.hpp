@@ -25,6 +25,12 @@ std::vector<Hit> find_all_hits(CollisionChecker& checker, const Configuration& c
 std::vector<Hit> find_hand_hits(CollisionChecker& checker, const Pose& X_RH, double opening,
                                 double clearance = 1e-4);
 
+/// What is met on the straight joint edge from a to b, both with their openings: pairs of bodies,
+/// those first that are met at most of `samples` configurations spread over it.
+/// @throws InvalidInput (E_DOF, E_NUMBER, E_RANGE)
+std::vector<Hit> find_hits_along(CollisionChecker& checker, const Configuration& a,
+                                 const Configuration& b, int samples = 64);
+
 /// How deep the hand, its grasp frame at X_RH, is in the body of this name: by so much it must be
 /// moved out, at least [m]; 0 if it is not in it.
 double hand_depth(CollisionChecker& checker, const Pose& X_RH, double opening,
