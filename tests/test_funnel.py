@@ -182,3 +182,15 @@ def test_a_part_to_be_turned_over_without_a_support_lacks_one(tmp_path: Path) ->
     assert goal.cause is not None
     assert goal.cause.kind == "no_regrasp" and "support" in goal.cause.text
     assert goal.cause in goal.stages[-1].reasons
+
+
+def test_the_text_of_a_failure_fits_a_screen_and_begins_with_the_cause(tmp_path: Path) -> None:
+    for fixtures in (ROOF, SHAFT, ""):
+        folder = tmp_path / str(len(fixtures))
+        folder.mkdir()
+        task = GOAL if fixtures else GOAL.replace("0.025]", "0.025], rpy: [3.14159265, 0, 0]")
+        lines = _report(folder, fixtures=fixtures, task=task).summary()
+        assert len(lines) <= 20 and max(map(len, lines)) <= 98
+        assert lines[0].startswith("goal 0 (block at") and lines[0].endswith("failed")
+        assert lines[1].startswith("  cause: ")
+        assert any("feature pairs found: " in line for line in lines)

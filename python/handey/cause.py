@@ -11,29 +11,37 @@ Not guaranteed: that with the cause away there is a plan.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from handey import _core
 from handey.reasons import Reason, Stage
 from handey.wording import ENDS, Names, of_obstacle
 
-__all__ = ["find_cause", "with_depths"]
+if TYPE_CHECKING:
+    from handey.funnel import Funnel
+
+__all__ = ["find_cause", "is_by_nearest", "with_depths"]
 
 # Choice: so much more way to give halves what an obstacle explains [m], [rad].
 SHIFT, TURN = 0.1, 0.6
+PART = 6.0  # Choice: a part is more easily moved than a fixture
 CARRYING = 0.05  # Choice: as much less does what the part stands on explain
 SMALL_SHARE = 0.03  # Choice: of the hand poses; less does not explain why no regrasp was found
 
 
 def find_cause(
-    stages: list[Stage], refusals: list[Reason], diagnosis: _core.Diagnosis | None, names: Names
+    stages: list[Stage],
+    refusals: list[Reason],
+    looked: Funnel,
+    proof: str = "",
 ) -> Reason | None:
     """The cause of a failure.
 
     Args:
         stages: the funnel.
         refusals: what was in the way without a look at any grasp.
-        diagnosis: of the hand poses; None if it was not asked for.
-        names: of the robot.
+        looked: what was looked at, with the diagnosis of hand poses, if there is one.
+        proof: why there is certainly no plan; empty where that is not known.
     """
     if refusals:
         return refusals[0]
@@ -43,8 +51,8 @@ def find_cause(
     for name in ("connected", "approached"):
         if by_name[name].entered and not by_name[name].passed:
             return _met_most(by_name[name])
-    if diagnosis is not None and diagnosis.looked_at:
-        cause = _of_diagnosis(by_name, diagnosis, names)
+    if looked.diagnosis is not None and looked.diagnosis.looked_at:
+        cause = _of_diagnosis(by_name, looked, looked.diagnosis, proof)
         if cause is not None:
             return cause
     for stage in stages:
@@ -60,21 +68,24 @@ def _met_most(stage: Stage) -> Reason:
 
 
 def _of_diagnosis(
-    stages: dict[str, Stage], diagnosis: _core.Diagnosis, names: Names
+    stages: dict[str, Stage], looked: Funnel, diagnosis: _core.Diagnosis, proof: str
 ) -> Reason | None:
     if not diagnosis.obstacles:
         return None
-    best = max(diagnosis.obstacles, key=_explains)
+    best = _best(diagnosis, looked)
+    assert best is not None
     no_regrasp = [r for r in stages["connected"].reasons if r.kind == "no_regrasp"]
     joins = diagnosis.free_at_origin and diagnosis.free_at_destination
     small = best.carries or best.alone < SMALL_SHARE * diagnosis.looked_at
+    if proof and not no_regrasp:  # that neither any grasp nor a regrasp joins the ends
+        no_regrasp = [Reason("no_regrasp", "connected", proof)]
     if no_regrasp and joins and small:
         return no_regrasp[0]
-    cause = of_obstacle(best, names)
+    cause = of_obstacle(_nearest(best, looked.closer), looked.names)
     if cause.kind in ("too_wide", "slips"):  # the funnel has their numbers
         told = [r for stage in stages.values() for r in stage.reasons if r.kind == cause.kind]
         return next(iter(told), cause)
-    share = f"in the way of {best.met} of {diagnosis.looked_at} hand poses"
+    share = f"is in the way of {best.met} of {diagnosis.looked_at} hand poses"
     if best.alone:
         share = f"alone keeps {best.alone} of {diagnosis.looked_at} hand poses from being legal"
     cause = replace(cause, text=f"{cause.text}; it {share}")
@@ -83,11 +94,37 @@ def _of_diagnosis(
     return cause
 
 
-def _explains(obstacle: _core.GraspObstacle) -> tuple[float, float]:
+def is_by_nearest(diagnosis: _core.Diagnosis, looked: Funnel) -> bool:
+    """Is the cause one of which the nearest miss is told, for which many poses must be seen?"""
+    best = _best(diagnosis, looked)
+    return best is not None and best.kind in _BY_NEAREST
+
+
+def _nearest(obstacle: _core.GraspObstacle, closer: _core.Diagnosis | None) -> _core.GraspObstacle:
+    """The same with the nearest miss of many more hand poses."""
+    same = [
+        other
+        for other in ([] if closer is None else closer.obstacles)
+        if (other.kind, other.end, other.joint) == (obstacle.kind, obstacle.end, obstacle.joint)
+        and other.alone > 0
+        and other.least < obstacle.least
+    ]
+    return same[0] if same and obstacle.kind in _BY_NEAREST else obstacle
+
+
+_BY_NEAREST = (_core.FallKind.OutOfReach, _core.FallKind.JointLimit, _core.FallKind.Turns)
+
+
+def _best(diagnosis: _core.Diagnosis, looked: Funnel) -> _core.GraspObstacle | None:
+    parts = {body.name for body in looked.parts}
+    return max(diagnosis.obstacles, key=lambda it: _explains(it, it.body in parts), default=None)
+
+
+def _explains(obstacle: _core.GraspObstacle, is_part: bool) -> tuple[float, float]:
     """How well an obstacle explains that there is no legal grasp: alone, or else with others."""
     scale = TURN if obstacle.kind == _core.FallKind.JointLimit else SHIFT
     weight = 1.0 / (1.0 + max(obstacle.least, 0.0) / scale)
-    weight *= CARRYING if obstacle.carries else 1.0
+    weight *= CARRYING if obstacle.carries else PART if is_part else 1.0
     return weight * obstacle.alone, weight * obstacle.in_fewest
 
 

@@ -8,12 +8,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from handey import _core
-from handey.cause import find_cause, with_depths
+from handey.cause import find_cause, is_by_nearest, with_depths
 from handey.plan_options import PlanOptions
-from handey.reasons import STAGES, Stage
+from handey.reasons import STAGES, Reason, Stage
 from handey.report import GoalReport, Report, StageClock
 
 __all__ = ["diagnose", "explain"]
+
+
+MOST_WHEN_STOPPED = 2  # Choice: grasps that are looked round when the time is up
+NEAREST = 8000  # Choice: hand poses among which the nearest miss is looked for
 
 
 def diagnose(report: Report, options: PlanOptions, clock: StageClock) -> None:
@@ -26,9 +30,17 @@ def diagnose(report: Report, options: PlanOptions, clock: StageClock) -> None:
             if looked.grasps:
                 looked.look_round()
                 continue
+            scene = looked.work.scene
             looked.diagnosis = _core.diagnose_grasps(
-                looked.work.scene, ranking=options.ranking, legality=options.legality
+                scene, ranking=options.ranking, legality=options.legality
             )
+            if options.denser and is_by_nearest(looked.diagnosis, looked):
+                looked.closer = _core.diagnose_grasps(
+                    scene,
+                    ranking=options.ranking,
+                    legality=options.denser[-1],
+                    most_poses=NEAREST,
+                )
 
 
 def explain(report: Report) -> None:
@@ -40,17 +52,26 @@ def explain(report: Report) -> None:
 
 
 def _explain(goal: GoalReport) -> None:
-    looked = goal.looked
-    goal.stages = [Stage(name) for name in STAGES] if looked is None else looked.stages()
-    goal.stages[0].reasons += goal.refusals
-    if looked is not None:
-        goal.tried = looked.poses()
-        if looked.diagnosis is not None:
-            with_depths(goal.stages[3], looked.diagnosis, looked.names)
-    if goal.status not in ("failed", "stopped") or goal.cause is not None:
-        return
+    looked, has_failed = goal.looked, goal.status in ("failed", "stopped")
     if looked is None:
-        cause = next(iter(goal.refusals), None)
-    else:
-        cause = find_cause(goal.stages, goal.refusals, looked.diagnosis, looked.names)
-    goal.cause = replace(cause, proved=True) if cause and goal.proof else cause
+        goal.stages = [Stage(name) for name in STAGES]
+        goal.stages[0].reasons += goal.refusals
+        if has_failed:
+            goal.cause = _of_both(goal.cause, next(iter(goal.refusals), None), bool(goal.proof))
+        return
+    if goal.status == "stopped":
+        looked.look_round(MOST_WHEN_STOPPED)
+    goal.stages, goal.tried = looked.stages(), looked.poses()
+    goal.stages[0].reasons += goal.refusals
+    if looked.diagnosis is not None:
+        with_depths(goal.stages[3], looked.diagnosis, looked.names)
+    if has_failed:
+        cause = find_cause(goal.stages, goal.refusals, looked, goal.proof)
+        goal.cause = _of_both(goal.cause, cause, bool(goal.proof))
+
+
+def _of_both(proof: Reason | None, found: Reason | None, proved: bool) -> Reason | None:
+    """The cause by a proof, which knows a bound for all hand poses, or what the nearest misses."""
+    if found is None or (proof is not None and (proof.kind, proof.end) != (found.kind, found.end)):
+        return proof
+    return replace(found, proved=True) if proved else found

@@ -73,7 +73,8 @@ class Funnel:
         grasps: that were taken up, by number.
         regrasping: why step 7 found nothing.
         no_features: that there is no pair at all, by the features looked for.
-        diagnosis: a closer look at hand poses, if no grasp was legal.
+        diagnosis: a look at what is in the way of hand poses, if no grasp was legal.
+        closer: the same of many more, for the nearest miss; None where that was not asked for.
     """
 
     work: Workspace | None = None
@@ -83,6 +84,7 @@ class Funnel:
     regrasping: list[Reason] = field(default_factory=list)
     no_features: list[Reason] = field(default_factory=list)
     diagnosis: _core.Diagnosis | None = None
+    closer: _core.Diagnosis | None = None
 
     # While planning.
 
@@ -155,6 +157,11 @@ class Funnel:
         reasons = [grasp.reason(self.names) for grasp in came]
         fell = [reason for reason in reasons if reason is not None and reason.stage == stage]
         return Stage(stage, len(came), len(came) - len(fell), merged(fell))
+
+    @property
+    def parts(self) -> list[_core.Body]:
+        """Of the cell."""
+        return [] if self.work is None else list(self.work.scene.cell.parts)
 
     @cached_property
     def names(self) -> Names:

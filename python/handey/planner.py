@@ -197,7 +197,7 @@ def _reach_goals(
         moves = plan_order(cell_file, options, hands, report)
     except Proved as end:
         report.goals[end.goal].prove(end.proof.text, end.proof.cause)
-        return False
+        moves = None
     if moves is None and options.diagnosis:
         diagnose(report, options, clock)
     for move in moves or []:

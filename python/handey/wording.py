@@ -92,8 +92,14 @@ class Names:
 
     def hits(self, mover: str, body: str, depth: float | None) -> str:
         """As in: forearm hits post_2, 7.0 mm deep."""
+        mover, body = self.pair(mover, body)
         deep = "" if depth is None else f", {1e3 * depth:.1f} mm deep"
-        return f"{plain(self.mover(mover))} hits {self.body(body)}{deep}"
+        return f"{plain(mover)} hits {self.body(body)}{deep}"
+
+    def pair(self, mover: str, body: str) -> tuple[str, str]:
+        """What met what; the hand, where a link of the robot is the other, is what moved."""
+        mover, body = self.mover(mover), self.mover(body)
+        return (body, mover) if body == "hand" else (mover, body)
 
     def past(self, joint: int, by: float) -> str:
         """As in: joint5 is 11.4 degrees past its limit."""
@@ -130,7 +136,8 @@ def of_fallen(fallen: _core.Fallen, names: Names) -> Reason:
     if kind == "joint_limit":
         joint, text = names.joints[fallen.joint], names.past(fallen.joint, by or 0.0)
     elif kind == "collision":
-        mover, bodies = names.mover(fallen.mover), (names.mover(fallen.body),)
+        mover, body = names.pair(fallen.mover, fallen.body)
+        bodies = (body,)
         text = names.hits(fallen.mover, fallen.body, by)
     return Reason(
         kind, "reachable", text + at_end(end), fallen.count, end, bodies, mover, joint, by
@@ -147,7 +154,8 @@ def of_obstacle(obstacle: _core.GraspObstacle, names: Names) -> Reason:
     if kind == "joint_limit":
         joint, text = names.joints[obstacle.joint], names.past(obstacle.joint, least)
     elif kind == "collision":
-        mover, bodies = names.mover(obstacle.mover), (names.mover(obstacle.body),)
+        mover, body = names.pair(obstacle.mover, obstacle.body)
+        bodies = (body,)
         text = names.hits(obstacle.mover, obstacle.body, by)
     elif kind == "out_of_reach":
         text = f"the wrist's centre is {1e3 * least:.0f} mm out of reach"
@@ -166,6 +174,6 @@ def of_carry(carry: Carry, hit: _core.Hit | None, names: Names) -> Reason:
     kind, end = _CARRY[carry.stage]
     if hit is None:
         return Reason(kind, KINDS[kind], carry.reason, end=end)
-    mover, body = names.mover(hit.a), names.mover(hit.b)
+    mover, body = names.pair(hit.a, hit.b)
     text = f"{_FAILED[kind]}: {names.hits(hit.a, hit.b, None)} ({carry.reason})"
     return Reason(kind, KINDS[kind], text, end=end, bodies=(body,), mover=mover)

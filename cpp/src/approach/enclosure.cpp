@@ -29,6 +29,9 @@ std::vector<Eigen::Vector3d> directions(const Pose& X_WH) {
   return result;
 }
 
+// Choice: what ends the way that is tried first tells more than what stands to the sides.
+constexpr int kFirstWay = 8;
+
 struct Met {
   int ways = 0;
   double came = 0.0;
@@ -46,7 +49,10 @@ std::vector<Hit> find_enclosing(CollisionChecker& checker, const SphericalWristS
   const Pose X_WH = hand_in_world(checker.cell(), start.q);
   const Pose X_RW = checker.cell().X_WR.inverse();
   std::map<Names, Met> met;
-  for (const Eigen::Vector3d& direction : directions(X_WH)) {
+  const std::vector<Eigen::Vector3d> ways = directions(X_WH);
+  const std::size_t first = checker.cell().held ? ways.size() - 1 : 0;
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    const Eigen::Vector3d& direction = ways[way];
     std::vector<Pose> line;
     for (int step = 1; step * kStep <= distance + 1e-9; ++step) {
       line.push_back(X_RW * Eigen::Translation3d(step * kStep * direction) * X_WH);
@@ -57,7 +63,7 @@ std::vector<Hit> find_enclosing(CollisionChecker& checker, const SphericalWristS
       for (const Hit& hit : find_all_hits(checker, {arm.path[i], start.opening})) {
         if (at_start.count({hit.a, hit.b}) != 0) continue;
         Met& one = met[{hit.a, hit.b}];
-        ++one.ways;
+        one.ways += way == first ? kFirstWay : 1;
         one.came = std::max(one.came, static_cast<double>(i) * kStep);
         is_over = true;
       }

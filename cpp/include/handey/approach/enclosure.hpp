@@ -1,6 +1,7 @@
 // What stands round the hand where no way out was found, or in? The hand is led along straight
 // lines away from where it is: back along its approach axis, tilted from it to both sides in its
-// grasp plane, and up. Counted are the bodies that it meets first on each. Not guaranteed: that a
+// grasp plane, and up. Counted are the bodies that it meets first on each, most on the way that
+// planners try first: straight back, or up with a part in the hand. Not guaranteed: that a
 // way exists without them; it is for telling people.
 #pragma once
 
