@@ -78,7 +78,9 @@ def _of_diagnosis(
     joins = diagnosis.free_at_origin and diagnosis.free_at_destination
     small = best.carries or best.alone < SMALL_SHARE * diagnosis.looked_at
     if proof and not no_regrasp:  # that neither any grasp nor a regrasp joins the ends
-        no_regrasp = [Reason("no_regrasp", "connected", proof)]
+        no_regrasp = [Reason("no_regrasp", "connected", proof, proved=True)]
+        if joins and small:
+            stages["connected"].reasons += no_regrasp
     if no_regrasp and joins and small:
         return no_regrasp[0]
     cause = of_obstacle(_nearest(best, looked.closer), looked.names)

@@ -76,7 +76,7 @@ std::vector<Hit> find_enclosing(CollisionChecker& checker, const SphericalWristS
   std::stable_sort(counted.begin(), counted.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Hit> hits;
-  for (const auto& [ways, hit] : counted) hits.push_back(hit);
+  for (const auto& one : counted) hits.push_back(one.second);
   return hits;
 }
 
