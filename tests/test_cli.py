@@ -62,7 +62,7 @@ class StandInReport:
         tried = types.SimpleNamespace(grasp="faces 1/2", stage="approach", reason="meets a wall")
         self.goals = [
             types.SimpleNamespace(
-                goal=0, grasp="faces 0/3", attempts=[tried], aside=[], advice=None
+                goal=0, grasp="faces 0/3", attempts=[tried], reasons=[], aside=[], advice=None
             )
         ]
 
