@@ -29,7 +29,7 @@ def failure_lines(goal: GoalReport) -> list[str]:
     """At most 20 lines of at most 98 columns, the first telling the goal and its status."""
     lines = _wrapped(f"goal {goal.goal} ({goal.text}): {goal.status}", 1, "")
     if goal.cause is not None:
-        lines += _wrapped(f"cause: {goal.cause.text}", 2)
+        lines += _wrapped(f"cause: {goal.cause.text}", 4)
     if goal.proof and (goal.cause is None or goal.proof != goal.cause.text):
         lines += _wrapped(f"proof: {goal.proof}", 2)
     for stage in goal.stages:
@@ -57,6 +57,8 @@ def _stage_lines(stage: Stage, cause: Reason | None) -> list[str]:
     if not stage.entered and not told:
         return []
     more = len(stage.reasons) - MOST_REASONS
+    if not stage.entered and stage.name == "found":  # nothing of the funnel was looked at
+        return [line for reason in told for line in _wrapped(reason.text, 2)]
     words = [_counted(reason, stage) for reason in told]
     words += [f"{more} reasons more"] if more > 0 else []
     why = f"; {'; '.join(words)}" if words else ""

@@ -133,7 +133,7 @@ class Funnel:
         pairs = len(spanned) + len(self.rejected)
         free = [pair for pair in spanned if pair.is_free]
         legal = sum(pair.legal for pair in free)
-        stages["found"] = Stage("found", pairs, pairs, list(self.no_features) if not pairs else [])
+        stages["found"] = Stage("found", pairs, pairs, list(self.no_features))
         fell = merged(of_rejected(pair) for pair in self.rejected)
         stages["spanned"] = Stage("spanned", pairs, len(spanned), fell)
         fell = merged(of_obstructed(pair.ranked) for pair in spanned if not pair.is_free)
