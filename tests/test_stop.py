@@ -274,7 +274,7 @@ def test_ctrl_c_on_the_command_line_tells_the_report_so_far(folder, cells):
 
 
 def test_progress_is_shown_on_a_terminal_and_wiped(folder, cells):
-    arguments = ["plan", "parted.yaml", "--deadline", "3", "-o", "none.json"]
+    arguments = ["plan", "parted.yaml", "--deadline", "1", "-o", "none.json"]
     status, _, shown = run_on_terminal(arguments, None, folder)
     assert status == 124
     assert re.search(r"\r\x1b\[K\w[\w ]*: goal 0, grasp \d+ of \d+", shown)
