@@ -181,9 +181,21 @@ TEST(CollisionModel, TakesTheRobotFromAModelOfTheSameRobotOnly) {
     const Configuration c = random.configuration(*cell.robot);
     EXPECT_EQ(a.closest(c).distance, b.closest(c).distance);
   }
-  Cell other = cell;
-  other.robot = std::make_shared<const Robot>(*cell.robot);
-  EXPECT_THROW(make_collision_model(other, bare), InvalidInput);
+  // Of another robot, here one whose palm is larger, nothing is taken.
+  Robot larger = *cell.robot;
+  RobotBody& palm = larger.bodies[static_cast<std::size_t>(larger.gripper.body)];
+  palm.shapes.push_back({Box{{0.3, 0.3, 0.3}}, Pose::Identity()});
+  Cell other = cluttered;
+  other.robot = std::make_shared<const Robot>(larger);
+  CollisionChecker truth(make_collision_model(other), other),
+      taken(make_collision_model(other, bare), other);
+  int differ = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Configuration c = random.configuration(larger);
+    EXPECT_EQ(taken.closest(c).distance, truth.closest(c).distance);
+    if (taken.closest(c).distance != a.closest(c).distance) ++differ;
+  }
+  EXPECT_GT(differ, 10);
 }
 
 }  // namespace
