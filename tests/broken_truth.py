@@ -9,16 +9,18 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from handey.errors import Fault
 from handey.reasons import KINDS, Reason
 
 MODELS = Path(__file__).resolve().parent.parent / "models"
+DATA = MODELS.parent.parent / "shared" / "data"
 PUMA = MODELS / "robots" / "puma560"
 TABLE = {"box": [1.8, 1.6, 0.05], "pose": {"xyz": [0.6, 0, -0.025]}, "support": True}
 START, GOAL = (0.5, 0.25), (0.5, -0.25)
@@ -35,14 +37,17 @@ class Truth:
         movers: of which one met them; empty for any.
         joints: that are past their limits.
         by: how much is missing, in the kind's unit, with the tolerance; None where no number is.
+        refused: the code with which the reader refuses the cell, in words that name all `bodies`;
+            empty where it is to be planned.
     """
 
-    kinds: tuple[str, ...]
+    kinds: tuple[str, ...] = ()
     end: str = ""
     bodies: tuple[str, ...] = ()
     movers: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     by: tuple[float, float] | None = None
+    refused: str = ""
 
     def __post_init__(self) -> None:
         unknown = set(self.kinds) - set(KINDS)
@@ -60,6 +65,13 @@ class Truth:
             and (not self.movers or cause.mover in self.movers)
             and (not self.joints or cause.joint in self.joints)
             and (self.by is None or self._is_near(cause.by))
+        )
+
+    def is_in(self, faults: Sequence[Fault]) -> bool:
+        """Is the cell refused with this?"""
+        return any(
+            fault.code == self.refused and all(name in fault.message for name in self.bodies)
+            for fault in faults
         )
 
     def _is_near(self, by: float | None) -> bool:
@@ -80,6 +92,7 @@ class Broken:
         make: writes what the cell needs to a folder and gives it, broken if asked.
         truths: each a full statement of the break.
         goal: index of the goal that it breaks.
+        batch: name of the module that makes it.
     """
 
     name: str
@@ -87,6 +100,7 @@ class Broken:
     make: Maker
     truths: tuple[Truth, ...]
     goal: int = 0
+    batch: str = ""
 
     def write(self, folder: Path, is_broken: bool) -> Path:
         """The cell as a file in a folder of its own."""
@@ -101,6 +115,10 @@ class Broken:
         """Does the cause state the break?"""
         return any(truth.holds(cause) for truth in self.truths)
 
+    def is_refused(self, faults: Sequence[Fault]) -> bool:
+        """Does the reader's refusal state the break?"""
+        return any(truth.is_in(faults) for truth in self.truths)
+
 
 CELLS: dict[str, Broken] = {}
 
@@ -111,7 +129,7 @@ def broken(*truths: Truth, goal: int = 0) -> Callable[[Maker], Maker]:
     def note(make: Maker) -> Maker:
         name = make.__name__
         sentence = " ".join((make.__doc__ or "").split())
-        CELLS[name] = Broken(name, sentence, make, truths, goal)
+        CELLS[name] = Broken(name, sentence, make, truths, goal, make.__module__)
         return make
 
     return note
@@ -126,11 +144,13 @@ def cell(
     table: dict[str, Any] | None = None,
     robot: dict[str, Any] | None = None,
     opening: float = 0.10,
+    least_opening: float = 0.0,
     limits: dict[str, tuple[float, float]] | None = None,
+    arm: str = "puma560",
     **more: Any,
 ) -> dict[str, Any]:
     """A cell on a table, with a robot file of its own: other jaws or joint limits, if given."""
-    write_robot(folder, opening, limits or {})
+    write_robot(folder, (least_opening, opening), limits or {}, arm)
     return {
         "handey_cell": 1,
         "robot": {"file": "robot.yaml", **(robot or {})},
@@ -141,19 +161,68 @@ def cell(
     }
 
 
-def write_robot(folder: Path, opening: float, limits: dict[str, tuple[float, float]]) -> None:
-    """The Puma's files, with other jaws and joint limits [rad]."""
-    shutil.copytree(PUMA, folder, dirs_exist_ok=True)
+def write_robot(
+    folder: Path, opening: tuple[float, float], limits: dict[str, tuple[float, float]], arm: str
+) -> None:
+    """An arm's files, with other jaws and joint limits [rad]."""
+    if arm == "puma560":
+        shutil.copytree(PUMA, folder, dirs_exist_ok=True)
+    else:
+        write_irb120(folder)
     robot = yaml.safe_load((folder / "robot.yaml").read_text())
-    robot["gripper"]["opening"] = [0.0, opening]
+    robot["gripper"]["opening"] = list(opening)
     (folder / "robot.yaml").write_text(yaml.safe_dump(robot, sort_keys=False))
-    urdf = folder / "puma560.urdf"
+    urdf = folder / robot["urdf"]
     text = urdf.read_text()
     for joint, (lower, upper) in limits.items():
-        pattern = rf'(<joint name="{joint}".*?<limit) lower="[^"]*" upper="[^"]*"'
-        text, count = re.subn(pattern, rf'\1 lower="{lower}" upper="{upper}"', text, flags=re.S)
+        pattern = rf'(<joint name="{joint}".*?<limit)( effort="[^"]*")? lower="[^"]*" upper="[^"]*"'
+        text, count = re.subn(
+            pattern, rf'\1\2 lower="{lower}" upper="{upper}"', text, flags=re.S
+        )
         assert count == 1
     urdf.write_text(text)
+
+
+FINGER = """
+  <link name="{side}_finger"><collision><origin xyz="0 {out} 0.025"/><geometry>
+    <box size="0.016 0.01 0.05"/></geometry></collision></link>
+  <joint name="{side}_finger_joint" type="prismatic"><origin xyz="0 0 0.05"/>
+    <parent link="palm"/><child link="{side}_finger"/><axis xyz="0 {sign} 0"/>
+    <limit lower="0" upper="0.04" velocity="0.1" effort="40"/></joint>"""
+PALM = """
+  <link name="palm"><collision><origin xyz="0 0 0.025"/><geometry><box size="0.05 0.1 0.05"/>
+    </geometry></collision></link>
+  <joint name="palm_mount" type="fixed"><parent link="tool0"/><child link="palm"/></joint>"""
+
+
+def write_irb120(folder: Path) -> None:
+    """The maker's URDF with a small gripper on its tool0, and its collision meshes."""
+    source = DATA / "robots" / "abb_irb120"
+    text = (source / "irb120_3_58.urdf").read_text()
+    text = re.sub(r"<visual>.*?</visual>", "", text, flags=re.S)
+    text = text.replace("package://abb_irb120_support/meshes/irb120_3_58/collision/", "meshes/")
+    hand = PALM + FINGER.format(side="left", sign=1, out=0.005)
+    hand += FINGER.format(side="right", sign=-1, out=-0.005)
+    (folder / "irb120.urdf").write_text(text.replace("</robot>", hand + "\n</robot>"))
+    meshes = source / "abb_irb120_support" / "meshes" / "irb120_3_58" / "collision"
+    shutil.copytree(meshes, folder / "meshes", dirs_exist_ok=True)
+    gripper = {
+        "link": "palm",
+        "grasp_frame": {"xyz": [0, 0, 0.09], "rpy": [0, 0, 0]},
+        "fingers": ["left_finger_joint", "right_finger_joint"],
+        "opening": [0.0, 0.08],
+        "pad": {"width": 0.016, "length": 0.02},
+    }
+    robot = {
+        "handey_robot": 1,
+        "name": "irb120",
+        "urdf": "irb120.urdf",
+        "arm": [f"joint_{i}" for i in range(1, 7)],
+        "home": [0, 0, 0, 0, 0.5, 0],
+        "gripper": gripper,
+        "ignore_collisions": [["left_finger", "right_finger"]],
+    }
+    (folder / "robot.yaml").write_text(yaml.safe_dump(robot, sort_keys=False))
 
 
 def box(size: list[float], xyz: list[float], yaw: float = 0.0) -> dict[str, Any]:
@@ -180,3 +249,8 @@ def place(part: str, xyz: list[float], yaw: float = 0.0) -> dict[str, Any]:
 def model(name: str) -> dict[str, Any]:
     """The mesh of a model's part."""
     return {"mesh": str(MODELS / "parts" / f"{name}.stl"), "scale": 0.001}
+
+
+def real(name: str, scale: float = 1.0) -> dict[str, Any]:
+    """The mesh of a real part, from the data beside the checkout."""
+    return {"mesh": str(DATA / "parts" / name), "scale": scale}
