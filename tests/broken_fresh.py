@@ -194,7 +194,9 @@ def region_beside_the_table(folder: Path, is_broken: bool) -> Cell:
 def tray_too_small(folder: Path, is_broken: bool) -> Cell:
     """The tray into which the part is to go is smaller than the part."""
     x, y = (0.045, 0.05) if is_broken else (0.14, 0.16)
-    walls = [box([0.006, y + 0.012, 0.025], [side * (x / 2 + 0.003), 0, 0.0125]) for side in (-1, 1)]
+    walls = [
+        box([0.006, y + 0.012, 0.025], [side * (x / 2 + 0.003), 0, 0.0125]) for side in (-1, 1)
+    ]
     walls += [box([x, 0.006, 0.025], [0, side * (y / 2 + 0.003), 0.0125]) for side in (-1, 1)]
     floor = box([x + 0.012, y + 0.012, 0.004], [0, 0, 0.002])
     fixtures = {"tray": shapes(floor, *walls, at=(0.45, -0.28))}

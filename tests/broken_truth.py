@@ -176,9 +176,7 @@ def write_robot(
     text = urdf.read_text()
     for joint, (lower, upper) in limits.items():
         pattern = rf'(<joint name="{joint}".*?<limit)( effort="[^"]*")? lower="[^"]*" upper="[^"]*"'
-        text, count = re.subn(
-            pattern, rf'\1\2 lower="{lower}" upper="{upper}"', text, flags=re.S
-        )
+        text, count = re.subn(pattern, rf'\1\2 lower="{lower}" upper="{upper}"', text, flags=re.S)
         assert count == 1
     urdf.write_text(text)
 

@@ -64,6 +64,7 @@ def little(options: PlanOptions, effort: int, regrasps: bool) -> PlanOptions:
     return replace(
         options,
         advice=False,
+        diagnosis=False,
         deadline=None,
         direct=by_slides(options.direct),
         denser=options.denser[:effort],
@@ -131,7 +132,9 @@ class Trials:
         """Does it not plan with all effort, in the time that is left?"""
         if self.left <= 0:
             return False
-        result = self.planner(cell, replace(self.options, advice=False, deadline=self.left))
+        result = self.planner(
+            cell, replace(self.options, advice=False, diagnosis=False, deadline=self.left)
+        )
         return result.plan is None and not result.report.stopped
 
     def _of_cell(self, change: Change) -> list[Any]:
