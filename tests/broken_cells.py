@@ -33,7 +33,8 @@ from broken_truth import CELLS, Broken
 import handey
 from handey.advice import Advice
 from handey.advising.change import with_edits
-from handey.report import GoalReport
+from handey.failure_text import failure_lines
+from handey.goal_report import GoalReport
 
 __all__ = ["CELLS", "Answer", "answer", "is_planned"]
 
@@ -153,7 +154,7 @@ def main() -> int:
             answers.append(answer(CELLS[name], folder, options))
         print(answers[-1].row(), flush=True)
         if args.verbose and answers[-1].told is not None:
-            print("\n".join(answers[-1].told.summary()))
+            print("\n".join(failure_lines(answers[-1].told)))
     cpu = [each.cpu_s for each in answers]
     print(
         f"broken: {len(answers)} cells, the cause told of {sum(a.is_told for a in answers)}, "

@@ -13,7 +13,8 @@ import numpy as np
 import yaml
 from scipy.spatial.transform import Rotation
 
-from handey.check.cell import Cell, read_cell
+from handey.check.cell import Cell
+from handey.check.cell_reader import read_cell
 from handey.check.kinematics import forward
 from handey.check.values import rpy_matrix
 

@@ -12,7 +12,7 @@ from handey.check import check
 
 def test_agrees_with_another_kinematics(cell):
     pinocchio = pytest.importorskip("pinocchio")
-    from handey.check.cell import read_cell
+    from handey.check.cell_reader import read_cell
     from handey.check.kinematics import forward
 
     robot = read_cell(cell).robot
@@ -83,7 +83,7 @@ def test_distances_never_exceed_those_of_dense_points():
 
 def test_bounds_on_motion_hold(cell, valid):
     """No point moves further between two samples than the sweep believes."""
-    from handey.check.cell import read_cell
+    from handey.check.cell_reader import read_cell
     from handey.check.kinematics import forward
     from handey.check.solids import Engine, pieces_of
     from handey.check.sweep import Actor, Job, Samples, Sweep
@@ -119,7 +119,7 @@ def test_bounds_on_motion_hold(cell, valid):
 
 def test_misses_no_overlap_that_dense_sampling_finds(cell, tmp_path):
     """Random strides through random obstacles, against the engine at 2000 points of each."""
-    from handey.check.cell import read_cell
+    from handey.check.cell_reader import read_cell
     from handey.check.kinematics import forward
     from handey.check.solids import Engine, Placed, pieces_of
 

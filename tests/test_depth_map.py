@@ -10,7 +10,7 @@ from hand_made import write_cell
 
 import handey
 from handey.check.camera import explained_pixels
-from handey.check.cell import read_cell
+from handey.check.cell_reader import read_cell
 from handey.errors import InvalidInput
 from handey.pose import pose_from_xyz_rpy
 

@@ -1,8 +1,14 @@
-"""The C++ floors: includes go down only, and public headers see only std and Eigen."""
+"""The C++ floors: includes go down only, and public headers see only std and Eigen.
+
+The Python modules: no imports in a circle, and the replay shares no code with the planner.
+"""
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -102,3 +108,78 @@ def test_every_source_is_built() -> None:
     listing = (ROOT / "CMakeLists.txt").read_text()
     for path in SOURCE.rglob("*.cpp"):
         assert f"  {path.relative_to(ROOT)}\n" in listing, path
+
+
+PYTHON = ROOT / "python"
+# Their functions import what they need, so that each command starts without what others need, and
+# a file can be read without the compiled core.
+IMPORT_LATE = {
+    "handey",
+    "handey.cell_file",
+    "handey.check.shapes",
+    "handey.cli",
+    "handey.commands",
+    "handey.inspect_command",
+    "handey.placement",
+    "handey.robot_file",
+    "handey.slice_command",
+    "handey.view_command",
+}
+# What the replay may use besides its own modules: how faults are told.
+LENT_TO_CHECK = {"handey.errors"}
+
+
+def _module(path: Path) -> str:
+    parts = path.relative_to(PYTHON).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {_module(path): path for path in sorted((PYTHON / "handey").rglob("*.py"))}
+
+
+def _imported(tree: ast.AST) -> Iterator[str]:
+    """Modules of the package that are imported anywhere in it, also for types alone."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.startswith("handey"))
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("handey"):
+            for alias in node.names:
+                full = f"{node.module}.{alias.name}"
+                is_module = full in MODULES or full == "handey._core"
+                yield full if is_module else str(node.module)
+
+
+def _imports() -> dict[str, set[str]]:
+    trees = {name: ast.parse(path.read_text()) for name, path in MODULES.items()}
+    return {name: set(_imported(tree)) - {name} for name, tree in trees.items()}
+
+
+def test_imports_form_no_circle() -> None:
+    # A circle is raised as an error that names the modules in it.
+    order = list(TopologicalSorter(_imports()).static_order())
+    assert set(order) - set(MODULES) == {"handey._core"}
+    assert len(order) > 100
+
+
+def test_imports_are_absolute() -> None:
+    for name, path in MODULES.items():
+        for node in ast.walk(ast.parse(path.read_text())):
+            assert not (isinstance(node, ast.ImportFrom) and node.level), name
+
+
+def test_only_named_modules_import_late() -> None:
+    late = set()
+    for name, path in MODULES.items():
+        for function in ast.walk(ast.parse(path.read_text())):
+            if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef)):
+                nodes = ast.walk(function)
+                if any(isinstance(node, (ast.Import, ast.ImportFrom)) for node in nodes):
+                    late.add(name)
+    assert late == IMPORT_LATE
+
+
+def test_the_replay_shares_no_code_with_the_planner() -> None:
+    for name, imported in _imports().items():
+        if name.startswith("handey.check"):
+            others = {other for other in imported if not other.startswith("handey.check")}
+            assert others <= LENT_TO_CHECK, name

@@ -10,8 +10,9 @@ import pytest
 
 import handey
 from handey import _core
+from handey.failure_text import failure_lines
+from handey.goal_report import GoalReport
 from handey.reasons import KINDS, STAGES, Reason, merged
-from handey.report import GoalReport
 
 ROBOT = Path(__file__).resolve().parent.parent / "models" / "robots" / "puma560" / "robot.yaml"
 TABLE = "  table: {box: [2.6, 2.0, 0.05], pose: {xyz: [0.55, 0, -0.025]}}\n"
@@ -189,7 +190,7 @@ def test_the_text_of_a_failure_fits_a_screen_and_begins_with_the_cause(tmp_path:
         folder = tmp_path / str(len(fixtures))
         folder.mkdir()
         task = GOAL if fixtures else GOAL.replace("0.025]", "0.025], rpy: [3.14159265, 0, 0]")
-        lines = _report(folder, fixtures=fixtures, task=task).summary()
+        lines = failure_lines(_report(folder, fixtures=fixtures, task=task))
         assert len(lines) <= 20 and max(map(len, lines)) <= 98
         assert lines[0].startswith("goal 0 (block at") and lines[0].endswith("failed")
         assert lines[1].startswith("  cause: ")

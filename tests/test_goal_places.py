@@ -11,7 +11,7 @@ import yaml
 
 import handey
 from handey import _core
-from handey.check.cell import read_cell
+from handey.check.cell_reader import read_cell
 from handey.check.goals import goal_fault
 from handey.goal_places import is_met, places_for
 from handey.resting import Sought

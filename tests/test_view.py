@@ -24,7 +24,7 @@ from hand_made import ROOT, pick_and_place, write_cell
 
 from handey.cell_file import load_cell
 from handey.check import CheckReport, check
-from handey.check.cell import read_cell
+from handey.check.cell_reader import read_cell
 from handey.check.plan_data import load_json, read_plan
 from handey.errors import InvalidInput
 from handey.view import write_page

@@ -25,7 +25,7 @@ from told_reports import HIT, LIMIT, STALLED, failure
 
 from handey.cli import main
 from handey.errors import InvalidInput
-from handey.report import GoalReport
+from handey.goal_report import GoalReport
 from handey.report_file import read_report_file, write_report
 from handey.view import write_page
 

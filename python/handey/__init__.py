@@ -24,7 +24,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from handey.errors import Fault, HandeyError, Interrupted, InvalidInput
+from handey.errors import Fault, HandeyError, InvalidInput
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from handey.check import CheckReport
     from handey.plan import Plan, Step
     from handey.planner import PlanOptions, PlanResult
+    from handey.report import Interrupted
 
 __all__ = [
     "CancelToken",
@@ -57,6 +58,7 @@ _HOMES = {
     "CancelToken": "_core",
     "CellFile": "cell_file",
     "CheckReport": "check",
+    "Interrupted": "report",
     "Plan": "plan",
     "PlanOptions": "planner",
     "PlanResult": "planner",

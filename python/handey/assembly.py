@@ -14,7 +14,7 @@ import numpy as np
 
 from handey import _core
 from handey.body_entry import BodyEntry, Box, Cylinder, Mesh, ShapeEntry, Sphere
-from handey.cell_file import CellEntry, CellFile, RobotPlace
+from handey.cell_entry import CellEntry, CellFile, RobotPlace
 from handey.errors import Fault, InvalidInput
 from handey.measured import with_depth_maps
 from handey.refusals import find_refusals, find_warnings

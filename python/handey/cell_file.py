@@ -7,24 +7,20 @@ start, is refused (docs: formats, section 2). Each step reports all of its fault
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from handey.body_entry import BodyEntry, read_body
-from handey.depth_map import DepthMapEntry, read_depth_map
+from handey.body_entry import read_body
+from handey.cell_entry import CellEntry, CellFile, RobotPlace
+from handey.depth_map import read_depth_map
 from handey.fields import Field
 from handey.pose import read_pose
 from handey.strict_yaml import Document, read_yaml
-from handey.task import Goal, Task, read_goals
-
-if TYPE_CHECKING:
-    from handey import _core
+from handey.task import Task, read_goals
 
 __all__ = [
     "CellEntry",
@@ -37,72 +33,6 @@ __all__ = [
 ]
 
 VERSION = 1
-
-
-@dataclass(frozen=True)
-class RobotPlace:
-    """The robot of a cell: its file, where it stands and how it starts."""
-
-    file: Path
-    X_WR: np.ndarray  # the URDF's root link in the world, (4, 4)
-    start: np.ndarray | None  # arm joints [rad]; None: the robot file's home
-    start_opening: float | None  # [m]; None: the greatest
-    field: Field
-
-
-@dataclass(frozen=True)
-class CellEntry:
-    """The content of a cell file; no mesh and no robot is read yet.
-
-    Attributes:
-        document: the file's values, for messages.
-        name: of the cell.
-        robot: where it is described and how it stands.
-        fixtures, parts: the bodies, in the order of the file.
-        depth_maps: obstacles known by measurement.
-        task: what is to be done.
-    """
-
-    document: Document
-    name: str
-    robot: RobotPlace
-    fixtures: tuple[BodyEntry, ...]
-    parts: tuple[BodyEntry, ...]
-    depth_maps: tuple[DepthMapEntry, ...]
-    task: Task
-
-
-@dataclass(frozen=True)
-class CellFile:
-    """A cell and its task, ready to plan.
-
-    Attributes:
-        file: the cell file; None for a cell made in a program.
-        cell: robot, fixtures and parts; depth maps are fixtures, after those of the file.
-        task: goals, order and finish.
-        depth_maps: as the file gives them.
-        warnings: for people.
-        entry: the content of the file as it was read.
-        model: collision geometry of the cell as it was read; planning takes over what still fits.
-    """
-
-    file: Path | None
-    cell: _core.Cell
-    task: Task
-    depth_maps: tuple[DepthMapEntry, ...]
-    warnings: tuple[str, ...]
-    entry: CellEntry
-    model: _core.CollisionModel | None = dataclasses.field(default=None, repr=False, compare=False)
-
-    @property
-    def name(self) -> str:
-        """Of the cell."""
-        return self.entry.name
-
-    @property
-    def goals(self) -> tuple[Goal, ...]:
-        """In the order of the file."""
-        return self.task.goals
 
 
 def read_cell(path: str | os.PathLike[str]) -> CellEntry:

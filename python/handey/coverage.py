@@ -6,9 +6,10 @@ the search went, at which spacing, and which budgets it used up.
 
 from __future__ import annotations
 
+from handey.goal_report import GoalReport
 from handey.plan_options import PlanOptions
 from handey.reasons import Stage
-from handey.report import GoalReport, Report
+from handey.report import Report
 
 __all__ = ["tell_coverage"]
 

@@ -8,12 +8,8 @@ expected.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from handey.report import Report
-
-__all__ = ["Fault", "HandeyError", "Interrupted", "InvalidInput", "Stopped"]
+__all__ = ["Fault", "HandeyError", "InvalidInput", "Stopped"]
 
 
 @dataclass(frozen=True)
@@ -62,15 +58,3 @@ class Stopped(Exception):
     def __init__(self, cause: str) -> None:
         self.cause = cause
         super().__init__("the deadline passed" if cause == "deadline" else "cancelled")
-
-
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C while planning.
-
-    Attributes:
-        report: what was tried so far.
-    """
-
-    def __init__(self, report: Report) -> None:
-        self.report = report
-        super().__init__()

@@ -9,9 +9,11 @@ from dataclasses import replace
 
 from handey import _core
 from handey.cause import find_cause, is_by_nearest, with_depths
+from handey.goal_report import GoalReport
 from handey.plan_options import PlanOptions
 from handey.reasons import STAGES, Reason, Stage
-from handey.report import GoalReport, Report, StageClock
+from handey.report import Report
+from handey.stage_clock import StageClock
 
 __all__ = ["diagnose", "explain"]
 

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import textwrap
-from typing import TYPE_CHECKING
 
+from handey.goal_report import GoalReport
 from handey.reasons import STAGES, Reason, Stage
-
-if TYPE_CHECKING:
-    from handey.report import GoalReport
 
 __all__ = ["failure_lines"]
 

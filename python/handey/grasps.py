@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 
 from handey import _core
 from handey.funnel import Funnel
+from handey.goal_report import GoalReport
 from handey.pick_and_place import Workspace
 from handey.plan_options import PlanOptions
 from handey.reasons import Reason
-from handey.report import GoalReport
 
 __all__ = ["Grasps", "describe"]
 

@@ -11,9 +11,23 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from handey import _core
-from handey.report import Search
 
 __all__ = ["Journey", "Search", "go", "go_straight", "open_and_go"]
+
+
+@dataclass(frozen=True)
+class Search:
+    """How one gross motion was found.
+
+    Attributes:
+        planner: "straight", "slices" or "RRT-Connect".
+        cpu_s: CPU seconds of the search that gave it; searches before it that failed not counted.
+        fallback_reason: why the slices did not give it; empty where they were not needed or did.
+    """
+
+    planner: str
+    cpu_s: float
+    fallback_reason: str = ""
 
 
 @dataclass(frozen=True)

@@ -18,13 +18,15 @@ import numpy as np
 from handey import _core
 from handey.cell_file import CellFile
 from handey.goal_places import places_for
+from handey.goal_report import GoalReport
 from handey.in_the_way import carries, runs_into
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
 from handey.proofs import Proofs, Proved
 from handey.reasons import Reason
-from handey.report import GoalReport, Report, StageClock
+from handey.report import Report
 from handey.resting import PlacementOptions, Sought, placements, same_rest
+from handey.stage_clock import StageClock
 from handey.task import PlaceAt
 
 __all__ = ["Hands", "Move", "Mover", "State"]

@@ -20,11 +20,12 @@ import numpy as np
 
 from handey.cell_file import CellFile
 from handey.goal_places import is_met
+from handey.goal_report import GoalReport
 from handey.in_the_way import Hindrance, hindrance, topmost
 from handey.moves import Hands, Move, Mover, State
 from handey.plan_options import PlanOptions
 from handey.reasons import Reason
-from handey.report import GoalReport, Report
+from handey.report import Report
 from handey.task import Goal, PlaceAt
 
 __all__ = ["plan_order"]

@@ -18,7 +18,7 @@ import numpy as np
 from handey import _core
 from handey.gross_motion import Journey, Search, go, go_straight, open_and_go
 from handey.lift import PLANNERS, Lift, WaysOut, draw_back, lift
-from handey.report import StageClock
+from handey.stage_clock import StageClock
 from handey.way_out import WayOutOptions, way_out
 
 __all__ = [

@@ -21,8 +21,9 @@ from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.coverage import tell_coverage
-from handey.errors import Fault, Interrupted, InvalidInput, Stopped
+from handey.errors import Fault, InvalidInput, Stopped
 from handey.explain import diagnose, explain
+from handey.goal_report import GoalReport
 from handey.grasps import Grasps
 from handey.in_the_way import unstable, would_fall
 from handey.moves import Hands
@@ -38,7 +39,8 @@ from handey.plan_options import PlanOptions
 from handey.proofs import Proofs, Proved
 from handey.reasons import Reason
 from handey.regrasp import Regrasp
-from handey.report import GoalReport, GrossMotion, LocalMotion, Report, StageClock
+from handey.report import GrossMotion, Interrupted, LocalMotion, Report
+from handey.stage_clock import StageClock
 from handey.task import PlaceAt
 from handey.tries import Tries, planned
 

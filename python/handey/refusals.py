@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from handey import _core
-from handey.cell_file import CellEntry
+from handey.cell_entry import CellEntry
 from handey.errors import Fault
 from handey.placement import examine_standing
 from handey.task import Goal, PlaceAt

@@ -18,12 +18,12 @@ import numpy as np
 
 from handey import _core
 from handey.budgets import with_budget
+from handey.goal_report import GoalReport
 from handey.grasp_table import GraspTable, GraspTableOptions, grasp_table, joined, with_pairs
 from handey.pick_and_place import Carry, Workspace
 from handey.plan_options import PlanOptions
 from handey.reasons import Reason
 from handey.regrasp_search import NO_SUPPORT, RegraspSearch, clears_ground, compatible
-from handey.report import GoalReport
 
 __all__ = ["Regrasp"]
 

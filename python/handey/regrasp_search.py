@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from handey import _core
+from handey.goal_report import Attempt
 from handey.grasp_table import GraspTable
 from handey.pick_and_place import (
     Carry,
@@ -26,7 +27,6 @@ from handey.pick_and_place import (
 )
 from handey.regrasp_graph import ORIGIN, Graph, Hop, Place
 from handey.regrasp_places import PlaceFinder, comfortable
-from handey.report import Attempt
 
 __all__ = ["RegraspOptions", "RegraspSearch", "Told", "clears_ground", "compatible"]
 

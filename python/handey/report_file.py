@@ -14,9 +14,9 @@ from typing import Any, TypeVar
 
 from handey.advice import Advice, Edit
 from handey.fields import Field, kind_of
+from handey.goal_report import Attempt, GoalReport
 from handey.output import write_whole
 from handey.reasons import STAGES, Reason, Stage, Tried
-from handey.report import Attempt, GoalReport
 from handey.strict_json import read_json
 from handey.terminal import finite
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from handey import _core
 from handey.budgets import by_slides, with_budget
+from handey.goal_report import Attempt, GoalReport
 from handey.grasps import Grasp, describe
 from handey.pick_and_place import (
     Carry,
@@ -25,7 +26,6 @@ from handey.pick_and_place import (
     find_reach,
 )
 from handey.plan_options import PlanOptions
-from handey.report import Attempt, GoalReport
 
 __all__ = ["Tries", "planned"]
 

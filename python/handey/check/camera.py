@@ -12,17 +12,15 @@ import struct
 import zlib
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from handey.check.cell import Cell
 from handey.check.depth import group_for, joined, pooled, probes_of, surface_of
 from handey.check.kinematics import forward
 from handey.check.shapes import Shape, transformed
 from handey.check.values import Array, fault, keys, number, pose, positive, text
-
-if TYPE_CHECKING:
-    from handey.check.cell import Cell
 
 __all__ = [
     "camera_solid",

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from handey.check.carries import find_carries
-from handey.check.cell import read_cell
+from handey.check.cell_reader import read_cell
 from handey.check.collisions import Collisions
 from handey.check.form import check_form
 from handey.check.goals import check_goals

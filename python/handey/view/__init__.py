@@ -10,7 +10,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from handey.check.cell import Cell, read_cell
+from handey.check.cell import Cell
+from handey.check.cell_reader import read_cell
 from handey.check.plan_data import PlanData, load_json, read_plan
 from handey.check.report import CheckReport
 from handey.errors import Fault, InvalidInput

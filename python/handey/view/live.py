@@ -15,12 +15,12 @@ from pathlib import Path
 from handey._core import CancelToken
 from handey.commands import OK
 from handey.errors import InvalidInput
+from handey.looking import look, require_plan_or_report
 from handey.terminal import complain, one_line
 from handey.view import make_page
 from handey.view.page import words_page
 from handey.view.server import LiveServer
 from handey.view.watch import Watch
-from handey.view_command import look, require_plan_or_report
 
 __all__ = ["serve"]
 

@@ -16,9 +16,9 @@ from handey.check.plan_data import PlanData
 from handey.check.robot import Robot
 from handey.check.shapes import Shape
 from handey.check.values import Array
+from handey.goal_report import GoalReport
 from handey.page_meshes import creases, matrix, packed
 from handey.reasons import STAGES, Tried
-from handey.report import GoalReport
 from handey.report_file import ToldReport
 from handey.view.clearance import ClearanceCurve
 

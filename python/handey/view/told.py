@@ -12,8 +12,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from handey.advice import Advice
+from handey.goal_report import GoalReport
 from handey.reasons import Reason, Stage
-from handey.report import GoalReport
 from handey.report_file import ToldReport
 
 __all__ = ["STAGE_WORDS", "told"]
