@@ -31,10 +31,10 @@ import yaml
 from broken_truth import CELLS, Broken
 
 import handey
-from handey.advice import Advice
 from handey.advising.change import with_edits
-from handey.failure_text import failure_lines
-from handey.goal_report import GoalReport
+from handey.reporting.advice import Advice
+from handey.reporting.failure_text import failure_lines
+from handey.reporting.goal_report import GoalReport
 
 __all__ = ["CELLS", "Answer", "answer", "is_planned"]
 

@@ -17,7 +17,7 @@ from typing import Any
 import yaml
 
 from handey.errors import Fault
-from handey.reasons import KINDS, Reason
+from handey.reporting.reasons import KINDS, Reason
 
 MODELS = Path(__file__).resolve().parent.parent / "models"
 DATA = MODELS.parent.parent / "shared" / "data"

@@ -24,7 +24,7 @@ import yaml
 import handey
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Paint
+from handey.drawing.marks import Area, Line, Paint
 from handey.robot_file import load_robot
 
 KINDS = ["FaceFace", "FaceEdge", "ParallelEdges", "FaceVertex", "CrossedEdges"]

@@ -27,8 +27,8 @@ import yaml
 
 import handey
 from handey import _core
-from handey.budgets import by_slides
-from handey.proofs import Proofs
+from handey.planning.budgets import by_slides
+from handey.planning.proofs import Proofs
 
 KINDS = ("direct", "clutter", "roofed", "walls", "regrasp")
 

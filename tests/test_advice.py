@@ -17,9 +17,9 @@ import yaml
 
 import handey
 from handey import PlanOptions, _core
-from handey.advice import Advice
 from handey.advising.change import edited, with_edits
 from handey.cli import main
+from handey.reporting.advice import Advice
 from handey.robot_file import load_robot
 
 MODELS = Path(__file__).resolve().parent.parent / "models"

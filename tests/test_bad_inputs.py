@@ -14,9 +14,9 @@ import pytest
 
 from handey.cell_file import read_cell
 from handey.errors import InvalidInput
+from handey.formats.strict_yaml import MOST_BYTES, read_yaml
 from handey.plan import Plan, Step
 from handey.robot_file import read_robot
-from handey.strict_yaml import MOST_BYTES, read_yaml
 
 CELL = """\
 handey_cell: 1

@@ -12,7 +12,7 @@ from broken_cells import CELLS, Answer, answer, is_planned
 from broken_truth import Truth
 
 import handey
-from handey.reasons import Reason
+from handey.reporting.reasons import Reason
 
 NAMES = [name for name, it in CELLS.items() if it.batch in ("broken_ends", "broken_ways")]
 # No test asserts a time; a slow machine may take longer for the same advice.

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import handey
-from handey.budgets import quick_options
+from handey.planning.budgets import quick_options
 
 CELLS = Path(__file__).resolve().parent.parent / "models" / "cells"
 

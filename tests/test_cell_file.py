@@ -11,7 +11,7 @@ import pytest
 
 import handey
 from handey.errors import InvalidInput
-from handey.pose import pose_from_xyz_rpy
+from handey.formats.pose import pose_from_xyz_rpy
 from handey.task import PlaceAt, PlaceInside, PlaceOn
 
 pytest.importorskip("handey._core")

@@ -22,9 +22,9 @@ import pytest
 import handey.cell_file
 from handey import cli
 from handey.errors import Fault, InvalidInput
-from handey.gross_motion import Search
+from handey.motion.gross_motion import Search
 from handey.plan import ACTIONS, Plan, Step
-from handey.report import GrossMotion, LocalMotion
+from handey.reporting.report import GrossMotion, LocalMotion
 from handey.task import PlaceOn
 
 

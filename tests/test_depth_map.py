@@ -12,7 +12,7 @@ import handey
 from handey.check.camera import explained_pixels
 from handey.check.cell_reader import read_cell
 from handey.errors import InvalidInput
-from handey.pose import pose_from_xyz_rpy
+from handey.formats.pose import pose_from_xyz_rpy
 
 _core = pytest.importorskip("handey._core")
 

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from handey.drawing import Axis, Figure, Panel, extent, folded
+from handey.drawing import Axis, Figure, Panel
+from handey.drawing.figure import extent, folded
+from handey.drawing.marks import Area, Cells, Line, Marker, Note, Paint, number, wrapped
 from handey.errors import InvalidInput
-from handey.marks import Area, Cells, Line, Marker, Note, Paint, number, wrapped
 
 SVG = "{http://www.w3.org/2000/svg}"
 UNIT = (1.0, 1.0)

@@ -1,6 +1,7 @@
 """The C++ floors: includes go down only, and public headers see only std and Eigen.
 
-The Python modules: no imports in a circle, and the replay shares no code with the planner.
+The Python packages: imports go down only, none in a circle, and the replay shares no code with the
+planner.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -111,6 +113,36 @@ def test_every_source_is_built() -> None:
 
 
 PYTHON = ROOT / "python"
+# The packages and modules of the Python floor, top to bottom; "" is the package itself.
+ORDER = [
+    "__main__",
+    "cli",
+    "commands",
+    "",
+    "inspection",
+    "view",
+    "slices",
+    "pages",
+    "drawing",
+    "check",
+    "planner",
+    "advising",
+    "planning",
+    "regrasp",
+    "reporting",
+    "motion",
+    "plan",
+    "cell_file",
+    "cell",
+    "resting",
+    "placement",
+    "robot_file",
+    "task",
+    "formats",
+    "cache",
+    "errors",
+    "_core",
+]
 # Their functions import what they need, so that each command starts without what others need, and
 # a file can be read without the compiled core.
 IMPORT_LATE = {
@@ -118,12 +150,12 @@ IMPORT_LATE = {
     "handey.cell_file",
     "handey.check.shapes",
     "handey.cli",
-    "handey.commands",
-    "handey.inspect_command",
+    "handey.commands.plan",
+    "handey.commands.inspect",
     "handey.placement",
     "handey.robot_file",
-    "handey.slice_command",
-    "handey.view_command",
+    "handey.commands.slice",
+    "handey.commands.view",
 }
 # What the replay may use besides its own modules: how faults are told.
 LENT_TO_CHECK = {"handey.errors"}
@@ -149,6 +181,7 @@ def _imported(tree: ast.AST) -> Iterator[str]:
                 yield full if is_module else str(node.module)
 
 
+@cache
 def _imports() -> dict[str, set[str]]:
     trees = {name: ast.parse(path.read_text()) for name, path in MODULES.items()}
     return {name: set(_imported(tree)) - {name} for name, tree in trees.items()}
@@ -159,6 +192,20 @@ def test_imports_form_no_circle() -> None:
     order = list(TopologicalSorter(_imports()).static_order())
     assert set(order) - set(MODULES) == {"handey._core"}
     assert len(order) > 100
+
+
+def _place(module: str) -> int:
+    return ORDER.index(module.split(".")[1] if "." in module else "")
+
+
+def test_every_package_has_its_place() -> None:
+    assert {_place(name) for name in [*MODULES, "handey._core"]} == set(range(len(ORDER)))
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_of_python_go_down_only(module: str) -> None:
+    for imported in _imports()[module]:
+        assert _place(imported) >= _place(module), f"{module} imports {imported}"
 
 
 def test_imports_are_absolute() -> None:

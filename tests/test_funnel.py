@@ -10,9 +10,9 @@ import pytest
 
 import handey
 from handey import _core
-from handey.failure_text import failure_lines
-from handey.goal_report import GoalReport
-from handey.reasons import KINDS, STAGES, Reason, merged
+from handey.reporting.failure_text import failure_lines
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import KINDS, STAGES, Reason, merged
 
 ROBOT = Path(__file__).resolve().parent.parent / "models" / "robots" / "puma560" / "robot.yaml"
 TABLE = "  table: {box: [2.6, 2.0, 0.05], pose: {xyz: [0.55, 0, -0.025]}}\n"

@@ -13,7 +13,7 @@ import handey
 from handey import _core
 from handey.check.cell_reader import read_cell
 from handey.check.goals import goal_fault
-from handey.goal_places import is_met, places_for
+from handey.planning.goal_places import is_met, places_for
 from handey.resting import Sought
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -11,7 +11,7 @@ import pytest
 import handey
 from handey import _core
 from handey.errors import InvalidInput
-from handey.legs import legs_of, standing
+from handey.slices.legs import legs_of, standing
 
 CELLS = Path(__file__).resolve().parent.parent / "models/cells"
 

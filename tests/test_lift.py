@@ -9,9 +9,9 @@ import pytest
 
 import handey
 from handey import _core
-from handey.lift import Lift, WaysOut, lift
-from handey.pick_and_place import DirectOptions
-from handey.way_out import WayOutOptions, way_out
+from handey.motion.lift import Lift, WaysOut, lift
+from handey.motion.pick_and_place import DirectOptions
+from handey.motion.way_out import WayOutOptions, way_out
 
 ROBOT = Path(__file__).resolve().parent.parent / "models" / "robots" / "puma560" / "robot.yaml"
 TABLE = "table: {box: [1.6, 1.4, 0.05], pose: {xyz: [0.55, 0, -0.025]}}"

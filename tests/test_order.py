@@ -10,7 +10,7 @@ import yaml
 
 import handey
 from handey import _core, planner
-from handey.plan_options import PlanOptions
+from handey.planning.plan_options import PlanOptions
 
 ROOT = Path(__file__).resolve().parent.parent
 CELLS = ROOT / "models" / "cells"

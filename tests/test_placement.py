@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from handey import placement
+from handey.formats.pose import pose_from_xyz_rpy
 from handey.placement import CONTACT_GAP, contact_points, convex_hull, distance_outside, least_width
-from handey.pose import pose_from_xyz_rpy
 
 trimesh = pytest.importorskip("trimesh")
 

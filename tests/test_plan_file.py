@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from handey.errors import InvalidInput
+from handey.formats.pose import pose_from_xyz_rpy
+from handey.formats.strict_json import MOST_BYTES
 from handey.plan import ACTIONS, Plan, Step
-from handey.pose import pose_from_xyz_rpy
-from handey.strict_json import MOST_BYTES
 
 
 def some_plan() -> Plan:

@@ -15,10 +15,10 @@ import yaml
 
 import handey
 from handey import _core
-from handey.grasp_table import GraspTableOptions, grasp_table
-from handey.plan_options import PlanOptions
-from handey.regrasp_graph import Graph, Place
-from handey.regrasp_search import RegraspOptions
+from handey.planning.plan_options import PlanOptions
+from handey.regrasp.graph import Graph, Place
+from handey.regrasp.grasp_table import GraspTableOptions, grasp_table
+from handey.regrasp.search import RegraspOptions
 
 ROOT = Path(__file__).resolve().parent.parent
 ROBOT = ROOT / "models" / "robots" / "puma560" / "robot.yaml"

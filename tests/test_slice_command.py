@@ -13,9 +13,9 @@ import pytest
 
 import handey
 from handey import _core, cli
-from handey.legs import Leg, legs_of
-from handey.slice_layers import BLOCKED, FREE, NOT_PROVED, Layer, make_layers, wrist_range
-from handey.slice_picture import default_angles, slice_figure
+from handey.slices.layers import BLOCKED, FREE, NOT_PROVED, Layer, make_layers, wrist_range
+from handey.slices.legs import Leg, legs_of
+from handey.slices.picture import default_angles, slice_figure
 
 CELLS = Path(__file__).resolve().parent.parent / "models/cells"
 SVG = "{http://www.w3.org/2000/svg}"

@@ -25,8 +25,8 @@ from told_reports import HIT, LIMIT, STALLED, failure
 
 from handey.cli import main
 from handey.errors import InvalidInput
-from handey.goal_report import GoalReport
-from handey.report_file import read_report_file, write_report
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.report_file import read_report_file, write_report
 from handey.view import write_page
 
 COLOURS = {

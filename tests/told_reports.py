@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from hand_made import X_PH
 
-from handey.advice import Advice, Edit
 from handey.check.values import rpy_matrix
-from handey.goal_report import Attempt, GoalReport
-from handey.reasons import STAGES, Reason, Stage, Tried
-from handey.report import Report
+from handey.reporting.advice import Advice, Edit
+from handey.reporting.goal_report import Attempt, GoalReport
+from handey.reporting.reasons import STAGES, Reason, Stage, Tried
+from handey.reporting.report import Report
 
 WIDE = Reason(
     "too_wide", "spanned", "pair 2/5: 60.0 mm wide, jaws open 50.0 mm: 10.0 mm short", 2, by=0.010,

@@ -13,7 +13,7 @@ import numpy as np
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Marker, Note, Paint
+from handey.drawing.marks import Area, Line, Marker, Note, Paint
 
 WIDTH, HEIGHT = 0.66, 0.58  # of the table's top [m]
 START, GOAL = np.array([0.12, 0.14]), np.array([0.36, 0.28])  # of the reference point

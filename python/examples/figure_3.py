@@ -17,7 +17,7 @@ import numpy as np
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Marker, Paint, wrapped
+from handey.drawing.marks import Area, Line, Marker, Paint, wrapped
 
 COLUMNS = 360  # one degree each
 FACES = 72  # of the torus in space, each way round

@@ -17,7 +17,7 @@ from puma560 import at
 import handey
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Note, Paint
+from handey.drawing.marks import Area, Line, Note, Paint
 
 TURN = np.radians(35.0)  # of the destination, beyond what the cell file says
 AROUND = 0.085  # shown on each side of the part [m]

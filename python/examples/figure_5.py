@@ -18,7 +18,7 @@ from puma560 import at, box, table_cell
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Marker, Paint
+from handey.drawing.marks import Area, Line, Marker, Paint
 
 GRID, HALF_SIZE, CLEARANCE = 0.004, 0.20, 0.006  # [m]
 # As seen from the side: places from the block's middle [m], direction of the hand [degrees].

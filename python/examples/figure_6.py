@@ -17,7 +17,7 @@ from puma560 import at, box, table_cell
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Marker, Note, Paint
+from handey.drawing.marks import Area, Line, Marker, Note, Paint
 
 GRID, HALF_SIZE, CLEARANCE = 0.004, 0.20, 0.006  # [m]
 # As seen from the side: places from the bar's middle [m], direction of the hand [degrees].

@@ -14,9 +14,9 @@ import numpy as np
 
 import handey
 from handey.drawing import Figure
-from handey.legs import legs_of
-from handey.slice_layers import make_layers
-from handey.slice_picture import default_angles, slice_panel
+from handey.slices.layers import make_layers
+from handey.slices.legs import legs_of
+from handey.slices.picture import default_angles, slice_panel
 
 AROUND = np.radians(50.0)  # shown on each side of the path
 

@@ -17,7 +17,7 @@ from puma560 import table_cell
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
-from handey.marks import Area, Line, Marker, Paint
+from handey.drawing.marks import Area, Line, Marker, Paint
 
 CELL = np.radians(8.0)  # of the waist angle
 CORNERS = np.array([[(i >> axis) & 1 for axis in range(3)] for i in range(8)]) - 0.5

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from handey import _core
-from handey.marks import Area, Cells, Line, Paint
+from handey.drawing.marks import Area, Cells, Line, Paint
 
 DEEP = 2.0  # more than anything reaches out of the plane [m]
 LARGEST_JUMP = 0.15  # of a joint from step to step [rad]

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from handey.check import CheckReport
     from handey.plan import Plan, Step
     from handey.planner import PlanOptions, PlanResult
-    from handey.report import Interrupted
+    from handey.reporting.report import Interrupted
 
 __all__ = [
     "CancelToken",

@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from handey.body_entry import read_body
-from handey.cell_entry import CellEntry, CellFile, RobotPlace
-from handey.depth_map import read_depth_map
-from handey.fields import Field
-from handey.pose import read_pose
-from handey.strict_yaml import Document, read_yaml
+from handey.cell.body_entry import read_body
+from handey.cell.cell_entry import CellEntry, CellFile, RobotPlace
+from handey.cell.depth_map import read_depth_map
+from handey.formats.fields import Field
+from handey.formats.pose import read_pose
+from handey.formats.strict_yaml import Document, read_yaml
 from handey.task import Task, read_goals
 
 __all__ = [
@@ -51,7 +51,7 @@ def load_cell(path: str | os.PathLike[str]) -> CellFile:
         InvalidInput: with every fault of the first step that finds any.
     """
     entry = read_cell(path)
-    from handey.assembly import assemble
+    from handey.cell.assembly import assemble
 
     return assemble(entry)
 
@@ -67,7 +67,7 @@ def parse_cell(cell: Mapping[str, Any], base_folder: str | os.PathLike[str] = ".
         InvalidInput: as `load_cell`.
     """
     entry = read_document(Document("", Path(base_folder), _plain(cell)))
-    from handey.assembly import assemble
+    from handey.cell.assembly import assemble
 
     return assemble(entry)
 

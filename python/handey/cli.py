@@ -17,7 +17,8 @@ import threading
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from handey.commands import (
+from handey.commands.inspect import inspect_command
+from handey.commands.plan import (
     BAD_INPUT,
     INTERNAL,
     INTERRUPTED,
@@ -25,11 +26,10 @@ from handey.commands import (
     check_command,
     plan_command,
 )
+from handey.commands.slice import slice_command
+from handey.commands.terminal import complain
+from handey.commands.view import view_command
 from handey.errors import InvalidInput
-from handey.inspect_command import inspect_command
-from handey.slice_command import slice_command
-from handey.terminal import complain
-from handey.view_command import view_command
 
 __all__ = ["main", "run"]
 

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from handey.errors import Fault, InvalidInput
-from handey.fields import Field, nearest
-from handey.output import write_whole
-from handey.pose import read_pose, written_pose
-from handey.strict_json import read_json
-from handey.strict_yaml import Document
+from handey.formats.fields import Field, nearest
+from handey.formats.output import write_whole
+from handey.formats.pose import read_pose, written_pose
+from handey.formats.strict_json import read_json
+from handey.formats.strict_yaml import Document
 
 __all__ = ["ACTIONS", "Plan", "Step"]
 

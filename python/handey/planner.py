@@ -20,29 +20,29 @@ from handey import _core
 from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
-from handey.coverage import tell_coverage
 from handey.errors import Fault, InvalidInput, Stopped
-from handey.explain import diagnose, explain
-from handey.goal_report import GoalReport
-from handey.grasps import Grasps
-from handey.in_the_way import unstable, would_fall
-from handey.moves import Hands
-from handey.order import plan_order
-from handey.pick_and_place import (
+from handey.motion.pick_and_place import (
     Carry,
     Motion,
     Workspace,
 )
+from handey.motion.stage_clock import StageClock
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan, Step
-from handey.plan_options import PlanOptions
-from handey.proofs import Proofs, Proved
-from handey.reasons import Reason
-from handey.regrasp import Regrasp
-from handey.report import GrossMotion, Interrupted, LocalMotion, Report
-from handey.stage_clock import StageClock
+from handey.planning.coverage import tell_coverage
+from handey.planning.explain import diagnose, explain
+from handey.planning.grasps import Grasps
+from handey.planning.in_the_way import unstable, would_fall
+from handey.planning.moves import Hands
+from handey.planning.order import plan_order
+from handey.planning.plan_options import PlanOptions
+from handey.planning.proofs import Proofs, Proved
+from handey.planning.regrasp import Regrasp
+from handey.planning.tries import Tries, planned
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import Reason
+from handey.reporting.report import GrossMotion, Interrupted, LocalMotion, Report
 from handey.task import PlaceAt
-from handey.tries import Tries, planned
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from handey.errors import Fault, InvalidInput
-from handey.fields import Field
-from handey.pose import read_pose
-from handey.strict_yaml import read_yaml
+from handey.formats.fields import Field
+from handey.formats.pose import read_pose
+from handey.formats.strict_yaml import read_yaml
 
 if TYPE_CHECKING:
     from handey import _core

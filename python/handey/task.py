@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handey.fields import Field
-from handey.pose import FARTHEST, read_pose
+from handey.formats.fields import Field
+from handey.formats.pose import FARTHEST, read_pose
 
 __all__ = ["Goal", "PlaceAt", "PlaceInside", "PlaceOn", "Task", "read_goals"]
 

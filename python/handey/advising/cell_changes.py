@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from handey import _core
-from handey.advice import Edit
 from handey.advising.change import Change, Family
 from handey.advising.situation import Situation
+from handey.reporting.advice import Edit
 from handey.task import PlaceAt, PlaceOn
 
 __all__ = ["finish", "orders", "other_places", "robot_starts", "sooner", "supports", "yielding"]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from handey.advice import Edit
+from handey.reporting.advice import Edit
 
 if TYPE_CHECKING:
     from handey import _core

@@ -14,15 +14,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from handey import _core
-from handey.advice import Advice, Edit
 from handey.advising import cell_changes, gripping, poses
 from handey.advising.change import COSTS, Change, Family, written
 from handey.advising.situation import Blame, Situation
 from handey.advising.trials import Planner, Trials
 from handey.cell_file import CellFile
-from handey.plan_options import PlanOptions
-from handey.reasons import Reason
-from handey.report import Report
+from handey.planning.plan_options import PlanOptions
+from handey.reporting.advice import Advice, Edit
+from handey.reporting.reasons import Reason
+from handey.reporting.report import Report
 
 __all__ = ["find_advice"]
 

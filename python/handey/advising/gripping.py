@@ -14,9 +14,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from handey import _core
-from handey.advice import Edit
 from handey.advising.change import Change, Family
 from handey.advising.situation import Situation
+from handey.reporting.advice import Edit
 from handey.robot_file import read_robot
 
 __all__ = ["frictions", "wider_jaws"]

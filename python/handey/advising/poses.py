@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from handey.advice import Edit
 from handey.advising.change import Change, Family
 from handey.advising.situation import Blame, Situation
+from handey.reporting.advice import Edit
 from handey.task import PlaceAt
 
 __all__ = ["moved_bodies", "removed", "shifts", "swings", "turns"]

@@ -14,9 +14,9 @@ import numpy as np
 
 from handey import _core
 from handey.cell_file import CellFile
-from handey.goal_report import GoalReport
 from handey.placement import TOUCHING, examine_standing
-from handey.reasons import Reason
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import Reason
 from handey.task import Goal, PlaceAt
 
 __all__ = ["Blame", "Situation"]

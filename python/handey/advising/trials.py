@@ -17,14 +17,14 @@ import numpy as np
 from handey import _core
 from handey.advising.change import Change, edited, with_edits
 from handey.advising.situation import Situation
-from handey.assembly import assemble, assemble_like
-from handey.budgets import by_slides
+from handey.cell.assembly import assemble, assemble_like
+from handey.cell.refusals import find_refusals
 from handey.cell_file import CellFile, read_document
 from handey.errors import InvalidInput
+from handey.formats.strict_yaml import Document
 from handey.placement import examine_standing
-from handey.plan_options import PlanOptions
-from handey.refusals import find_refusals
-from handey.strict_yaml import Document
+from handey.planning.budgets import by_slides
+from handey.planning.plan_options import PlanOptions
 from handey.task import PlaceAt
 
 __all__ = ["Planner", "Trials"]

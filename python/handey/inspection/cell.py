@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 
 from handey import _core
+from handey.cell.depth_map import DepthMapEntry
 from handey.cell_file import CellFile
-from handey.depth_map import DepthMapEntry
 from handey.errors import InvalidInput
-from handey.goal_places import is_met, places_for
 from handey.inspection.holding import Held, Holding, rank
 from handey.inspection.part import PartReport, inspect_body
 from handey.placement import TOUCHING, Standing, examine_standing
+from handey.planning.goal_places import is_met, places_for
 from handey.resting import Sought
 from handey.task import Goal, PlaceAt
 

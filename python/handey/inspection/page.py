@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 
-from handey.html_page import asset, filled, html_page
+from handey.formats.output import write_whole
 from handey.inspection.cell import CellReport
 from handey.inspection.cell_page import cell_page
 from handey.inspection.markup import escaped
@@ -22,7 +22,7 @@ from handey.inspection.scene import (
     part_scene,
     robot_scene,
 )
-from handey.output import write_whole
+from handey.pages.html import asset, filled, html_page
 
 __all__ = ["write_page"]
 

@@ -14,12 +14,12 @@ import numpy as np
 
 from handey import _core
 from handey.drawing import Axis, Figure, Panel
+from handey.drawing.marks import Cells, Paint
 from handey.inspection.cell import CellReport
 from handey.inspection.part import FaceFigures, PartReport
 from handey.inspection.reach import COARSE, POINTINGS, Reach
 from handey.inspection.robot import RobotReport
-from handey.marks import Cells, Paint
-from handey.page_meshes import creases, matrix, packed, unit_normals
+from handey.pages.meshes import creases, matrix, packed, unit_normals
 from handey.task import PlaceAt
 
 __all__ = ["MOST_PAIRS", "MOST_RESTS", "cell_scene", "part_scene", "reach_figure", "robot_scene"]

@@ -15,11 +15,11 @@ from handey.check.cell_reader import read_cell
 from handey.check.plan_data import PlanData, load_json, read_plan
 from handey.check.report import CheckReport
 from handey.errors import Fault, InvalidInput
-from handey.fields import Field
-from handey.output import write_whole
-from handey.report import Report
-from handey.report_file import ToldReport, is_report, read_report, read_report_file
-from handey.strict_yaml import Document
+from handey.formats.fields import Field
+from handey.formats.output import write_whole
+from handey.formats.strict_yaml import Document
+from handey.reporting.report import Report
+from handey.reporting.report_file import ToldReport, is_report, read_report, read_report_file
 from handey.view.page import cell_page
 
 __all__ = ["make_page", "write_page"]

@@ -17,8 +17,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
+from handey.drawing.marks import Area, Cells, Line, Mark, Paint, number
 from handey.errors import InvalidInput
-from handey.marks import Area, Cells, Line, Mark, Paint, number
 
 __all__ = ["HandPose", "PlanePicture", "plane_picture"]
 

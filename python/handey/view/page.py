@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 from handey.check.cell import Cell
 from handey.check.plan_data import PlanData
-from handey.html_page import asset, filled, html_page, script_of
-from handey.report_file import ToldReport
+from handey.pages.html import asset, filled, html_page, script_of
+from handey.reporting.report_file import ToldReport
 from handey.view.clearance import clearance_along
 from handey.view.planes import grasp_planes
 from handey.view.scene import cell_scene, clearance_scene, tried_scene

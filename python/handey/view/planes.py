@@ -13,9 +13,9 @@ from handey.check.cell import Cell
 from handey.check.kinematics import forward
 from handey.check.plan_data import PlanData, Step
 from handey.errors import InvalidInput
-from handey.goal_report import GoalReport
-from handey.reasons import STAGES, Tried
-from handey.report_file import ToldReport
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import STAGES, Tried
+from handey.reporting.report_file import ToldReport
 from handey.view.grasp_plane import HandPose, PlanePicture, plane_picture
 from handey.view.scene import ends_of
 

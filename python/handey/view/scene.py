@@ -16,10 +16,10 @@ from handey.check.plan_data import PlanData
 from handey.check.robot import Robot
 from handey.check.shapes import Shape
 from handey.check.values import Array
-from handey.goal_report import GoalReport
-from handey.page_meshes import creases, matrix, packed
-from handey.reasons import STAGES, Tried
-from handey.report_file import ToldReport
+from handey.pages.meshes import creases, matrix, packed
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import STAGES, Tried
+from handey.reporting.report_file import ToldReport
 from handey.view.clearance import ClearanceCurve
 
 __all__ = ["cell_scene", "clearance_scene", "ends_of", "tried_scene"]

@@ -11,10 +11,10 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from handey.advice import Advice
-from handey.goal_report import GoalReport
-from handey.reasons import Reason, Stage
-from handey.report_file import ToldReport
+from handey.reporting.advice import Advice
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import Reason, Stage
+from handey.reporting.report_file import ToldReport
 
 __all__ = ["STAGE_WORDS", "told"]
 

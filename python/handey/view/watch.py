@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from handey.errors import InvalidInput
-from handey.strict_yaml import read_text, read_yaml
+from handey.formats.strict_yaml import read_text, read_yaml
 
 __all__ = ["Watch", "files_of"]
 

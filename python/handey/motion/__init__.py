@@ -1,0 +1,1 @@
+"""One grasp carried through: gross motions, lifts and the ways out."""

@@ -1,0 +1,1 @@
+"""What all pages of handey are made of."""

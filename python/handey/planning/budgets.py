@@ -1,0 +1,72 @@
+"""How long to try: the budgets of each round of attempts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from handey import _core
+from handey.motion.pick_and_place import DirectOptions
+from handey.motion.way_out import WayOutOptions
+from handey.planning.plan_options import PlanOptions
+
+__all__ = ["by_slides", "quick_options", "with_budget"]
+
+
+def by_slides(direct: DirectOptions) -> DirectOptions:
+    """The same without the complete search of approaches, which costs most where there is none."""
+    given = direct.approach
+    approach = _core.ApproachOptions(
+        cell=given.cell,
+        run_in=given.run_in,
+        least_run_in=given.least_run_in,
+        most_slides=given.most_slides,
+        slide=given.slide,
+        legality=given.legality,
+        certificate=given.certificate,
+        contact_share=given.contact_share,
+        destination_obstacles_join=given.destination_obstacles_join,
+        search=given.search,
+        search_levels=0,
+    )
+    return replace(direct, approach=approach)
+
+
+def quick_options(options: PlanOptions | None = None, deadline: float | None = None) -> PlanOptions:
+    """Of a short try: does a changed cell plan? What needs much searching is given up.
+
+    Args:
+        options: of the whole plan, whose seed and samples are kept.
+        deadline: seconds of wall-clock time; None: as given.
+    """
+    options = options or PlanOptions()
+    regrasp = replace(options.regrasp, samples=options.regrasp.samples[:1], sequences=(10, 4))
+    return replace(
+        options,
+        deadline=options.deadline if deadline is None else deadline,
+        denser=options.denser[:1],
+        sampling_rounds=options.sampling_rounds[:2],
+        most_by_arm=min(options.most_by_arm, 1),
+        thorough=False,
+        regrasp=regrasp,
+        prove=False,
+        diagnosis=False,
+    )
+
+
+def with_budget(options: PlanOptions, round_: int) -> DirectOptions:
+    """Gross motions of one round of attempts: the last may take all the time that they want."""
+    iterations = options.sampling_rounds[round_]
+    gross = _core.GrossOptions(
+        sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations),
+        shortcut=_core.ShortcutOptions(seed=options.seed),
+    )
+    if round_ < len(options.sampling_rounds) - 1 or not options.thorough:
+        # Choice: about as long for the slices as for sampling. A proof that there is no way waits.
+        gross.search = _core.SearchOptions(max_proofs=5 * iterations)
+        gross.separation = _core.SeparationOptions(most_cells=0)
+    arm = None
+    if round_ > 0:
+        arm = WayOutOptions(
+            sampling=_core.SamplingOptions(seed=options.seed, max_iterations=iterations)
+        )
+    return replace(options.direct, gross=gross, arm=arm)

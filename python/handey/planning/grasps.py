@@ -1,0 +1,320 @@
+"""Which grasps to try, and why the others fell: the article's steps 1 to 3 as one stream.
+
+Two faces are what jaws hold best, so their pairs come first, the best of each before more of any.
+Pairs with edges and vertices are looked for when those have not served: they are worth less, and
+there are more of them. What is passed over is told in the report, with numbers.
+Not guaranteed: that a grasp which is yielded can be reached; that is the approach's to say.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from handey import _core
+from handey.motion.pick_and_place import Workspace
+from handey.planning.plan_options import PlanOptions
+from handey.reporting.funnel import Funnel
+from handey.reporting.goal_report import GoalReport
+from handey.reporting.reasons import Reason
+
+__all__ = ["Grasps", "describe"]
+
+Grasp = tuple[_core.RankedPair, _core.GraspPose]
+DENSER_PAIRS = 8  # Choice: the denser passes look at so many pairs of a kind, the best
+PORTION = 400  # Choice: candidates of one pair looked at before the next pair has its turn
+QUICK = 2  # Choice: turns of each pair in the quick look before anything costlier is asked
+# A hand pose: its pair, place and direction in the grasp plane, half-turn.
+_PoseKey = tuple[str, float, float, float, bool]
+
+
+@dataclass
+class _Turn:
+    """A pair that is looked at by turns with others; its candidates are made when first asked."""
+
+    pair: _core.RankedPair
+    legality: _core.LegalityOptions
+    search: _core.LegalGraspSearch | None = None
+
+
+@dataclass
+class _Seen:
+    """What the passes before have looked at.
+
+    Attributes:
+        poses: that were legal.
+        told: per pair that has none, where in the report's reasons that is told.
+    """
+
+    poses: set[_PoseKey] = field(default_factory=set)
+    told: dict[str, int] = field(default_factory=dict)
+
+    def tell(self, report: GoalReport, pair: str, reason: str, is_new: bool = False) -> None:
+        """Why a pair has no legal pose; what the last pass says counts."""
+        if pair in self.told:
+            report.reasons[self.told[pair]] = reason
+        elif is_new:
+            self.told[pair] = len(report.reasons)
+            report.reasons.append(reason)
+
+
+class Grasps:
+    """The grasp poses of one goal that are legal at both ends, in the order to try them.
+
+    Tells the report what fell.
+    """
+
+    def __init__(self, work: Workspace, options: PlanOptions, report: GoalReport) -> None:
+        self._looked = Funnel(work)
+        report.begin(self._looked)
+        self._work, self._options, self._report = work, options, report
+        self._seen = _Seen()
+        self._narrow: dict[_core.PairChoice, list[_core.RankedPair]] = {}
+        self._kinds = _kinds(options)  # not looked at yet
+        self._denser = _denser_passes(options)
+        self._turns: deque[_Turn] = deque()
+
+    def first(
+        self,
+        elsewhere: Callable[[], bool] = lambda: False,
+        give_up: Callable[[], None] = lambda: None,
+    ) -> Iterator[Grasp]:
+        """All pairs, two faces first; in denser passes as long as none could be approached.
+
+        Args:
+            elsewhere: asked where a quick look, a denser one too, finds no legal pose; the stream
+                ends there if true.
+            give_up: called once if the first look finds no legal pose; raises if it is proved that
+                there is none.
+        """
+        asked = False
+        while self._kinds:
+            kind = self._kinds.pop(0)
+            yield from self._of_kind(kind)
+            if not asked and not self._report.funnel.get("legal grasp poses"):
+                asked = True
+                give_up()
+            # Faces once more, before others are looked at.
+            if self._denser and self._denser[0][0] == kind and not self._approached():
+                self._begin(*self._denser.pop(0))
+                yield from self._by_turns(self._approached, 1)
+        if not self._approached():
+            while self._denser:
+                self._begin(*self._denser.pop(0))
+            yield from self._by_turns(self._approached, QUICK)
+        if not self._report.funnel.get("legal grasp poses") and elsewhere():
+            return
+        yield from self._by_turns(self._approached)
+
+    def rest(self) -> Iterator[Grasp]:
+        """What was spared, because a grasp could be approached or the first stream ended early."""
+        while self._kinds:
+            yield from self._of_kind(self._kinds.pop(0))
+        yield from self._by_turns(lambda: False)
+        while self._denser:
+            self._begin(*self._denser.pop(0))
+            yield from self._by_turns(lambda: False)
+
+    def _of_kind(self, kind: _core.PairChoice) -> Iterator[Grasp]:
+        ranking = _rank(self._work, self._options.ranking, kind)
+        self._looked.rank(ranking)
+        _report_pairs(self._report, ranking, kind, self._options.ranking)
+        yield from self._legal(ranking.ranked)
+
+    def _approached(self) -> bool:
+        return bool(self._report.funnel.get("approached"))
+
+    def _begin(self, kind: _core.PairChoice, legality: _core.LegalityOptions) -> None:
+        """Look denser at the best pairs from now on."""
+        if kind not in self._narrow:
+            # The room that the fingers need when the jaws open as little as legality lets them.
+            wanted = self._options.ranking
+            least = min(wanted.open_clearance, legality.open_clearance / 4)
+            self._narrow[kind] = _rank(self._work, wanted, kind, least).ranked[:DENSER_PAIRS]
+        self._turns += [_Turn(pair, legality) for pair in self._narrow[kind]]
+
+    def _by_turns(self, enough: Callable[[], bool], most: int | None = None) -> Iterator[Grasp]:
+        """Go on with what was begun, some candidates of each pair in turn, `most` times at most."""
+        left = None if most is None else most * len(self._turns)
+        while self._turns and left != 0 and not enough():
+            left = None if left is None else left - 1
+            turn, work = self._turns.popleft(), self._work
+            with work.clock("legal grasps"):
+                if turn.search is None:
+                    turn.search = _core.LegalGraspSearch(
+                        work.scene, work.solver, turn.pair, turn.legality
+                    )
+                    self._looked.searching(turn.pair, turn.search)
+                found = turn.search.next(PORTION)
+            if turn.search.is_done:
+                self._tell(turn.pair, turn.search.result(), turn.search)
+            else:
+                self._turns.append(turn)
+            for aim in self._fresh(turn.pair, found):
+                yield turn.pair, aim
+
+    def _legal(self, ranked: list[_core.RankedPair]) -> Iterator[Grasp]:
+        """Some poses of each pair, best pair first, then as many more."""
+        work, size = self._work, self._options.poses_per_round
+        legal: list[list[_core.GraspPose] | None] = [None] * len(ranked)
+        start = 0
+        while any(poses is None or start < len(poses) for poses in legal):
+            for i, pair in enumerate(ranked):
+                if legal[i] is None:
+                    with work.clock("legal grasps"):
+                        found = _core.find_legal_grasps(
+                            work.scene, work.solver, pair, self._options.legality
+                        )
+                    legal[i] = self._fresh(pair, found.poses)
+                    self._tell(pair, found)
+                for aim in (legal[i] or [])[start : start + size]:
+                    yield pair, aim
+            start += size
+
+    def _fresh(self, pair: _core.RankedPair, poses: list[_core.GraspPose]) -> list[_core.GraspPose]:
+        """Those that no pass before has found."""
+        known, name = self._seen.poses, str(pair.pair)
+        fresh = [pose for pose in poses if _key(name, pose) not in known]
+        known.update(_key(name, pose) for pose in poses)
+        self._report.add("legal grasp poses", len(fresh))
+        self._looked.take_up(pair).legal += len(fresh)
+        return fresh
+
+    def _tell(
+        self, pair: _core.RankedPair, found: _core.LegalGrasps, search: object = None
+    ) -> None:
+        """What came of a pair, for the reasons."""
+        self._looked.looked(pair, found, search)
+        name = str(pair.pair)
+        if found.poses:
+            self._seen.tell(self._report, name, f"{name}: legal hand poses only in a denser pass")
+        else:
+            self._seen.tell(self._report, name, _illegal(pair, found), is_new=True)
+
+
+def _kinds(options: PlanOptions) -> list[_core.PairChoice]:
+    """The pairs that are looked at, two faces first."""
+    kinds = [_core.PairChoice.TwoFaces, _core.PairChoice.BeyondFaces]
+    if not options.ranking.features.beyond_faces:
+        kinds.pop()
+    return [kind for kind in kinds if options.ranking.pairs in (kind, _core.PairChoice.All)]
+
+
+def _denser_passes(
+    options: PlanOptions,
+) -> list[tuple[_core.PairChoice, _core.LegalityOptions]]:
+    return [(kind, legality) for legality in options.denser for kind in _kinds(options)]
+
+
+def _rank(
+    work: Workspace,
+    wanted: _core.RankingOptions,
+    choice: _core.PairChoice,
+    open_clearance: float | None = None,
+) -> _core.Ranking:
+    options = _core.RankingOptions(
+        features=wanted.features,
+        finger_clearance=wanted.finger_clearance,
+        open_clearance=wanted.open_clearance if open_clearance is None else open_clearance,
+        use_destination=wanted.use_destination,
+        least_share=wanted.least_share,
+        most_targets=wanted.most_targets,
+        pairs=choice,
+    )
+    scene = work.scene
+    with work.clock("rank grasps"):
+        return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)
+
+
+def _key(pair: str, pose: _core.GraspPose) -> _PoseKey:
+    at = pose.in_plane
+    return pair, round(at.x, 6), round(at.y, 6), round(at.theta, 6), pose.flipped
+
+
+def describe(pair: _core.RankedPair, aim: _core.GraspPose) -> str:
+    """The grasp in words; the hand's direction is told in the part's frame."""
+    z = aim.X_PH[:3, 2]
+    return (
+        f"{pair.pair}, {1e3 * aim.width:.1f} mm apart, "
+        f"hand along ({z[0]:+.2f}, {z[1]:+.2f}, {z[2]:+.2f}) of the part"
+    )
+
+
+def _illegal(pair: _core.RankedPair, legal: _core.LegalGrasps) -> str:
+    fallen = {
+        "with too little contact": legal.too_little_contact,
+        "would turn in the jaws": legal.would_turn,
+        "out of reach at the origin": legal.unreachable_at_origin,
+        "out of reach at the destination": legal.unreachable_at_destination,
+        "in collision at the origin": legal.collides_at_origin,
+        "in collision at the destination": legal.collides_at_destination,
+    }
+    counts = ", ".join(f"{count} {where}" for where, count in fallen.items() if count)
+    name = f"{pair.pair}, {1e3 * pair.pair.width:.1f} mm"
+    return f"{name}: {legal.tried} hand poses: {counts}; farthest: {legal.worst_reason}"
+
+
+def _report_pairs(
+    report: GoalReport,
+    ranking: _core.Ranking,
+    kind: _core.PairChoice,
+    options: _core.RankingOptions,
+) -> None:
+    if kind == _core.PairChoice.TwoFaces:
+        _report_faces(report, ranking, options)
+    else:
+        _report_beyond_faces(report, ranking)
+
+
+def _report_faces(
+    report: GoalReport, ranking: _core.Ranking, options: _core.RankingOptions
+) -> None:
+    spanned = len(ranking.ranked) + len(ranking.obstructed)
+    report.add("faces", ranking.faces)
+    report.add("face pairs", spanned + len(ranking.rejected))
+    report.add("spanned by the jaws", spanned)
+    report.add("unobstructed", len(ranking.ranked))
+    if not ranking.faces:
+        least = 1e6 * options.features.least_face_area
+        _no_pair(report, f"the part has no flat face of {least:g} mm2 or more for a pad to lie on")
+    elif not spanned and not ranking.rejected:
+        _no_pair(report, "no two faces of the part are parallel and face away from each other")
+    _report_fallen(report, ranking)
+
+
+def _report_beyond_faces(report: GoalReport, ranking: _core.Ranking) -> None:
+    spanned = len(ranking.ranked) + len(ranking.obstructed)
+    report.add("edges", ranking.edges)
+    report.add("vertices", ranking.vertices)
+    report.add("pairs with edges or vertices spanned by the jaws", ranking.beyond_faces)
+    report.add("of these looked at", spanned)
+    report.add("of these unobstructed", len(ranking.ranked))
+    if not spanned and not ranking.rejected:
+        _no_pair(
+            report,
+            "no edge or vertex of the part is opposite to a face or an edge with which jaws could "
+            "hold it",
+        )
+    _report_fallen(report, ranking)
+
+
+def _no_pair(report: GoalReport, text: str) -> None:
+    report.reasons.append(text)
+    if report.looked is not None:
+        report.looked.no_features.append(Reason("no_features", "found", text))
+
+
+def _report_fallen(report: GoalReport, ranking: _core.Ranking) -> None:
+    fallen: dict[str, list[str]] = {}
+    for pair in ranking.rejected:
+        fallen.setdefault(pair.reason, []).append(str(pair))
+    for ranked in ranking.obstructed:
+        blocked = f"{100 * (1 - ranked.share):.0f} % obstructed by {', '.join(ranked.obstructing)}"
+        fallen.setdefault(blocked, []).append(str(ranked.pair))
+    report.reasons += [f"{_listed(pairs)}: {why}" for why, pairs in fallen.items()]
+
+
+def _listed(pairs: list[str], most: int = 6) -> str:
+    more = len(pairs) - most
+    return ", ".join(pairs[:most]) + (f" and {more} more" if more > 0 else "")

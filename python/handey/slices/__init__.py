@@ -1,0 +1,1 @@
+"""The gross motions of a plan in slices of configuration space, as pictures."""
