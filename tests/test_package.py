@@ -17,6 +17,11 @@ def test_functions_keep_their_names_when_the_modules_of_these_names_load():
     assert handey.Plan is module.Plan
 
 
+@pytest.mark.parametrize("name", [*handey.__all__, "__version__"])
+def test_every_name_offered_is_found(name: str) -> None:
+    assert getattr(handey, name) is not None
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="no attribute 'plam'"):
         handey.plam  # noqa: B018

@@ -58,7 +58,7 @@ _HOMES = {
     "CancelToken": "_core",
     "CellFile": "cell_file",
     "CheckReport": "check",
-    "Interrupted": "report",
+    "Interrupted": "reporting.report",
     "Plan": "plan",
     "PlanOptions": "planner",
     "PlanResult": "planner",
