@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from handey import _core
 
@@ -98,24 +98,33 @@ def go(
 def open_and_go(
     checker: _core.CollisionChecker,
     start: _core.Configuration,
-    goal: _core.Configuration,
+    goals: list[_core.Configuration],
     options: _core.GrossOptions,
     certificate: _core.CertificateOptions,
     table: Callable[[], _core.ArmTable | None],
 ) -> Journey:
-    """A gross motion with a change of opening before it where there is room, else after it."""
-    if start.opening == goal.opening:
-        return go(checker, start, [goal], options, table)
-    opened = _core.Configuration(q=start.q, opening=goal.opening)
+    """A gross motion with a change of opening before it where there is room, else after it.
+
+    Args:
+        checker: of the cell as it is then.
+        start: where the arm is.
+        goals: all with the same opening, the best first.
+        options: budgets.
+        certificate: of the change of opening.
+        table: as for `go`.
+    """
+    opening = goals[0].opening
+    if start.opening == opening:
+        return go(checker, start, goals, options, table)
+    opened = _core.Configuration(q=start.q, opening=opening)
     if _core.certify_edge(checker, start, opened, certificate).is_free:
-        journey = go(checker, opened, [goal], options, table)
-        if not journey:
-            return journey
-        return Journey([start, *journey.path], 0, "", journey.search)
-    closed = _core.Configuration(q=goal.q, opening=start.opening)
-    journey = go(checker, start, [closed], options, table)
+        journey = go(checker, opened, goals, options, table)
+        return replace(journey, path=[start, *journey.path]) if journey else journey
+    closed = [_core.Configuration(q=goal.q, opening=start.opening) for goal in goals]
+    journey = go(checker, start, closed, options, table)
     if not journey:
         return journey
-    if not _core.certify_edge(checker, closed, goal, certificate).is_free:
+    at, goal = closed[journey.goal], goals[journey.goal]
+    if not _core.certify_edge(checker, at, goal, certificate).is_free:
         return Journey(reason="no room to open the fingers at either end")
-    return Journey([*journey.path, goal], 0, "", journey.search)
+    return replace(journey, path=[*journey.path, goal])

@@ -10,7 +10,7 @@ Not guaranteed: a grasp given up here may still be feasible; the reason tells wh
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -28,7 +28,9 @@ __all__ = [
     "Placing",
     "Workspace",
     "carry_through",
+    "find_approach",
     "find_reach",
+    "find_transit",
 ]
 
 # Choice: the pads are certified up to this far from the faces, each side; the last stretch is the
@@ -179,21 +181,43 @@ def _at(q: np.ndarray, opening: float) -> _core.Configuration:
     return _core.Configuration(q=q, opening=opening)
 
 
+def find_approach(
+    work: Workspace,
+    pair: _core.RankedPair,
+    aim: _core.GraspPose,
+    q_pick: np.ndarray,
+    options: DirectOptions,
+) -> _core.ApproachResult:
+    """The open hand's way in, by the local planners in the grasp plane."""
+    with work.clock("approach"):
+        return _core.plan_approach(work.scene, work.solver, pair, aim, q_pick, options.approach)
+
+
 def find_reach(
     work: Workspace,
     pair: _core.RankedPair,
     aim: _core.GraspPose,
     q_pick: np.ndarray,
     options: DirectOptions,
+    approach: _core.ApproachResult | None = None,
 ) -> Reach | Carry:
     """Plan the motions near obstacles for one grasp: approach to depart, deposit to withdraw.
+
+    Args:
+        work: the goal.
+        pair: of features.
+        aim: where the hand is to close.
+        q_pick: the arm's configuration there.
+        options: budgets.
+        approach: what the local planners gave, if they were asked before.
 
     Returns:
         A `Reach`, or a `Carry` that says at which stage it fell.
     """
     scene = work.scene
+    if approach is None:
+        approach = find_approach(work, pair, aim, q_pick, options)
     with work.clock("approach"):
-        approach = _core.plan_approach(scene, work.solver, pair, aim, q_pick, options.approach)
         grasp, path = approach.grasp, list(approach.path)
         planner = PLANNERS[approach.planner.name]
         inside = _at(q_pick, aim.opening)
@@ -326,23 +350,42 @@ def _ways_out(work: Workspace, options: DirectOptions) -> WaysOut:
     return WaysOut(options.retreat, options.departure, options.roomier, sample)
 
 
-def carry_through(work: Workspace, reach: Reach, options: DirectOptions) -> Carry:
+def find_transit(work: Workspace, reaches: Sequence[Reach], options: DirectOptions) -> Journey:
+    """The empty hand's gross motion (step 5) to where the approach of one of some reaches begins.
+
+    Args:
+        work: the goal, and where the arm is.
+        reaches: all with the hand as wide open, the best first.
+        options: budgets.
+    """
+    with work.clock("transit"):
+        return open_and_go(
+            _core.CollisionChecker(work.model, work.scene.cell),
+            work.current,
+            [reach.approach[0] for reach in reaches],
+            options.gross,
+            options.approach.certificate,
+            work.table,
+        )
+
+
+def carry_through(
+    work: Workspace, reach: Reach, options: DirectOptions, transit: Journey | None = None
+) -> Carry:
     """Join a reach to where the arm is, to its destination and home by gross motions (steps 5, 6).
+
+    Args:
+        work: the goal, and where the arm is.
+        reach: the motions near obstacles.
+        options: budgets.
+        transit: the way to it, if that is known.
 
     Returns:
         A `Carry`, "done" or with the stage at which it fell.
     """
     scene, grasp = work.scene, reach.grasp
-    with work.clock("transit"):
-        checker = _core.CollisionChecker(work.model, scene.cell)
-        transit = open_and_go(
-            checker,
-            work.current,
-            reach.approach[0],
-            options.gross,
-            options.approach.certificate,
-            work.table,
-        )
+    checker = _core.CollisionChecker(work.model, scene.cell)
+    transit = find_transit(work, [reach], options) if transit is None else transit
     if not transit:
         met = _between(checker, work.current, reach.approach[0])
         return Carry("transit", transit.reason, met=met)

@@ -2,8 +2,10 @@
 
 Most motions are found at once or not for long, so every grasp first gets a small budget. Where
 several have fallen, the first of them is given the next budget before one more is tried with the
-smallest: neither a hard motion that all grasps share nor a hopeless grasp costs much. The order is
-fixed by what fell, not by time.
+smallest: neither a hard motion that all grasps share nor a hopeless grasp costs much. The empty
+hand's ways to several grasps are one question: with greater budgets they are looked for together,
+from where the arm is to any of them. What a grasp has, a way in or a way to it, is kept. The order
+is fixed by what fell, not by time.
 """
 
 from __future__ import annotations
@@ -14,13 +16,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
+from handey.motion.gross_motion import Journey
 from handey.motion.pick_and_place import (
     Carry,
     DirectOptions,
     Reach,
     Workspace,
     carry_through,
+    find_approach,
     find_reach,
+    find_transit,
 )
 from handey.planning.budgets import by_slides, with_budget
 from handey.planning.grasps import Grasp, describe
@@ -31,24 +36,39 @@ __all__ = ["Tries", "planned"]
 
 # Choice: what hundreds of grasps alike fell at, more of them will fall at too. Grasps whose gross
 # motions may fall in one pass; that get each greater budget; that are approached by search.
-MOST_FALLEN = 24
-MOST_IN_ALL = 48  # the same in all passes
-MOST_CAUGHT = 10  # that get a greater budget before all have had the least
+MOST_FALLEN = 8
+MOST_IN_ALL = 16  # the same in all passes
+MOST_CAUGHT = (10, 3)  # that get each greater budget before all have had the least
 MOST_AGAIN = (6, 3, 1)
-MOST_SEARCHED = 10
+MOST_SEARCHED = 5
+MOST_JOINED = 12  # Choice: to so many grasps at once a way of the empty hand is looked for
 FEW_REGRASPS = (3, 1, 0)  # sequences tried where many grasps have fallen at their gross motions
 WAITING = 3  # Choice: grasps that fell before the first of them gets a greater budget
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class _Try:
-    """One grasp, and the arm's configuration in it."""
+    """One grasp, and the arm's configuration in it, with what is known of it.
+
+    Attributes:
+        number: of the grasp.
+        name: the grasp in words.
+        pair, aim, q_pick: the same for the core.
+        approach: what the local planners gave, if all of them were asked.
+        reach: the motions near obstacles.
+        transit: the way of the empty hand to it.
+        falls: how often it fell at a gross motion.
+    """
 
     number: int
     name: str
     pair: _core.RankedPair
     aim: _core.GraspPose
     q_pick: np.ndarray
+    approach: _core.ApproachResult | None = None
+    reach: Reach | None = None
+    transit: Journey | None = None
+    falls: int = 0
 
 
 @dataclass
@@ -65,14 +85,14 @@ class Tries:
         searched: to how many a way was searched for.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
-        unconnected: attempts that fell at a gross motion.
+        unconnected: grasps that fell at a gross motion.
         caught: by round, how many got its budget before all had had the least.
     """
 
     work: Workspace
     report: GoalReport
     options: PlanOptions
-    waiting: dict[int, list[tuple[_Try, Reach]]] = field(default_factory=dict)
+    waiting: dict[int, list[_Try]] = field(default_factory=dict)
     slid: list[_Try] = field(default_factory=list)
     stalled: int = 0
     searched: int = 0
@@ -125,12 +145,14 @@ class Tries:
                 return carry
         for budget in range(1, round_ + 1):
             most = MOST_AGAIN[min(budget, len(MOST_AGAIN)) - 1]
-            waiting = self.waiting.pop(budget, [])[:most]
-            for number, (attempt, reach) in enumerate(waiting, 1):
-                self._announce(f"again, grasp {number} of {len(waiting)}")
-                carry = self._carry(attempt, reach, budget)
+            for number in range(min(most, len(self.waiting.get(budget, [])))):
+                self._announce(f"again, grasp {number + 1} of {most}")
+                carry = self._retry(budget)
                 if carry is not None:
                     return carry
+                if not self.waiting[budget]:
+                    break
+            self.waiting[budget] = []
         fallen, self.fallen = self.fallen, []
         # Half as many with each greater budget.
         fallen = fallen[: -(-self.options.most_by_arm // 2 ** (round_ - 1))]
@@ -148,9 +170,10 @@ class Tries:
         """The next budget for the first that wait for it; the greatest is left to the end."""
         for round_ in range(1, len(self.options.sampling_rounds) - 1):
             waiting = self.waiting.get(round_, [])
-            if len(waiting) >= WAITING and self.caught.get(round_, 0) < MOST_CAUGHT:
+            most = MOST_CAUGHT[min(round_, len(MOST_CAUGHT)) - 1]
+            if len(waiting) >= WAITING and self.caught.get(round_, 0) < most:
                 self.caught[round_] = self.caught.get(round_, 0) + 1
-                carry = self._carry(*waiting.pop(0), round_)
+                carry = self._retry(round_)
                 if carry is not None:
                     return carry
         if self.stalled >= WAITING and self.searched < MOST_SEARCHED:
@@ -161,16 +184,17 @@ class Tries:
 
     def _slide(self, attempt: _Try) -> Carry | None:
         """The first time: the approach straight or by slides only."""
-        direct = by_slides(self._budget(0))
-        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        direct, work = by_slides(self._budget(0)), self.work
+        approach = find_approach(work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        reach = find_reach(work, attempt.pair, attempt.aim, attempt.q_pick, direct, approach)
         if not isinstance(reach, Carry):
-            self.report.add("approached", 1)
-            return self._carry(attempt, reach, 0)
+            return self._join(attempt, reach, 0)
         self._tell(attempt, reach, approached=False)
-        if reach.stage == "approach" and self.options.direct.approach.search_levels > 0:
+        if not approach and self.options.direct.approach.search_levels > 0:
             self.slid.append(attempt)
             self.stalled += 1
         else:
+            attempt.approach = approach
             self._fell(attempt, reach)
         return None
 
@@ -183,28 +207,68 @@ class Tries:
         self.fallen.append(attempt)
 
     def _reach(self, attempt: _Try, round_: int) -> Carry | None:
-        direct = self._budget(round_)
-        reach = find_reach(self.work, attempt.pair, attempt.aim, attempt.q_pick, direct)
+        """With all local planners; what they gave before, they give again."""
+        direct, work = self._budget(round_), self.work
+        grasp = attempt.pair, attempt.aim, attempt.q_pick
+        if attempt.approach is None:
+            attempt.approach = find_approach(work, *grasp, direct)
+        reach = find_reach(work, *grasp, direct, attempt.approach)
         if isinstance(reach, Carry):
             self._tell(attempt, reach, approached=False)
             self._fell(attempt, reach)
             return None
-        self.report.add("approached", 1)
-        return self._carry(attempt, reach, round_)
+        return self._join(attempt, reach, round_)
 
-    def _carry(self, attempt: _Try, reach: Reach, round_: int) -> Carry | None:
-        carry = carry_through(self.work, reach, self._budget(round_))
+    def _join(self, attempt: _Try, reach: Reach, round_: int) -> Carry | None:
+        """Gross motions to and from what was found near obstacles."""
+        self.report.add("approached", 1)
+        attempt.reach = reach
+        transit = find_transit(self.work, [reach], self._budget(round_))
+        return self._carry(attempt, transit, round_)
+
+    def _retry(self, round_: int) -> Carry | None:
+        """The next budget for the first that waits for it; its transit with those of others."""
+        waiting = self.waiting[round_]
+        first = waiting[0]
+        if first.transit is not None:
+            return self._carry(waiting.pop(0), first.transit, round_)
+        opening = _reach_of(first).approach[0].opening
+        joined = [
+            attempt
+            for attempt in waiting
+            if attempt.transit is None and _reach_of(attempt).approach[0].opening == opening
+        ][:MOST_JOINED]
+        reaches = [_reach_of(attempt) for attempt in joined]
+        transit = find_transit(self.work, reaches, self._budget(round_))
+        fell = [joined[transit.goal]] if transit else joined
+        for attempt in fell:
+            waiting.remove(attempt)
+        for attempt in fell:
+            carry = self._carry(attempt, transit, round_)
+            if carry is not None:
+                return carry
+        return None
+
+    def _carry(self, attempt: _Try, transit: Journey, round_: int) -> Carry | None:
+        attempt.transit = transit or None
+        carry = carry_through(self.work, _reach_of(attempt), self._budget(round_), transit)
         self._tell(attempt, carry, approached=True)
         self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
         if carry.stage == "done":
             return planned(self.report, attempt.name, carry)
-        self.unconnected += 1
+        self.unconnected += attempt.falls == 0
+        attempt.falls += 1
         if round_ + 1 < len(self.options.sampling_rounds):
-            self.waiting.setdefault(round_ + 1, []).append((attempt, reach))
+            self.waiting.setdefault(round_ + 1, []).append(attempt)
         return None
 
     def _budget(self, round_: int) -> DirectOptions:
         return with_budget(self.options, round_)
+
+
+def _reach_of(attempt: _Try) -> Reach:
+    assert attempt.reach is not None
+    return attempt.reach
 
 
 def planned(report: GoalReport, name: str, carry: Carry) -> Carry:
