@@ -35,7 +35,7 @@ def test_a_cell_that_obstacles_moved_to_the_origin_lose_and_those_at_their_place
     assert "wall (destination)" in " ".join(a.reason for a in lost.report.goals[0].attempts)
     # No grasp was lacking, and every way in was asked for: in the plane, then by the whole arm.
     goal = lost.report.goals[0]
-    assert goal.funnel["legal grasp poses"] > 0 and not goal.funnel.get("approached")
+    assert goal.counts["legal grasp poses"] > 0 and not goal.counts.get("approached")
     assert {attempt.stage for attempt in goal.attempts} == {"approach"}
 
 

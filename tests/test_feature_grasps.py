@@ -80,7 +80,7 @@ def test_part_without_parallel_sides_is_held_by_its_edges(
     assert result.plan is not None, "\n".join(result.report.reasons)
     goal = result.report.goals[0]
     assert goal.grasp.split()[0] == kind
-    assert ("edges" in goal.funnel) == (kind != "faces"), "asked for only where faces do not serve"
+    assert ("edges" in goal.counts) == (kind != "faces"), "asked for only where faces do not serve"
     checked = handey.check(path, result.plan)
     assert checked.ok, "\n".join(map(str, checked.faults))
 

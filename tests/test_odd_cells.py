@@ -178,7 +178,7 @@ def test_a_part_of_twenty_thousand_triangles_is_planned_as_the_block_that_it_is(
     path = cell(tmp_path, parts=(part,))
     result = handey.plan(handey.load_cell(path))
     assert result.plan is not None and handey.check(path, result.plan).ok
-    assert result.report.goals[0].funnel["faces"] == 6
+    assert result.report.goals[0].counts["faces"] == 6
 
 
 IMPOSSIBLE = {

@@ -85,7 +85,7 @@ def test_a_report_tells_the_attempts_made_until_then(cells):
     result = handey.plan(cells["parted"], cancel=token, progress=progress)
     assert result.plan is None and result.report.cancelled
     goal = result.report.goals[0]
-    assert goal.status == "stopped" and goal.funnel["legal grasp poses"] > 0
+    assert goal.status == "stopped" and goal.counts["legal grasp poses"] > 0
     assert goal.attempts, "two grasps fell before the third was tried"
     assert any("goal 0" in line and "stopped" in line for line in result.report.reasons)
     assert "grasp 3 of" in attempts[-1]

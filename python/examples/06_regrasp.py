@@ -19,7 +19,7 @@ def main(models: Path) -> bool:
         print("\n".join(result.report.reasons))
         return False
     goal = result.report.goals[0]
-    for what, count in goal.funnel.items():
+    for what, count in goal.counts.items():
         print(f"{count:6} {what}")
     held = [step for step in result.plan.steps if step.action == "depart"]
     for step, words in zip(held, goal.grasp.split("; then "), strict=True):

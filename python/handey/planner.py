@@ -112,7 +112,7 @@ def plan(
         interrupt, reached, report.cancelled = error, False, True
     if report.stopped:
         for goal in report.goals:
-            if goal.status == "not tried" and goal.funnel:
+            if goal.status == "not tried" and goal.counts:
                 goal.status = "stopped"
     explain(report)
     tell_coverage(report, options)

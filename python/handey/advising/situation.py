@@ -157,7 +157,7 @@ class Situation:
     @cached_property
     def ends_at_fault(self) -> list[str]:
         """Where grasps fall: one end, if grasps are legal at the other alone."""
-        told = {end: self.report.funnel.get(f"legal at the {end}") for end in ENDS}
+        told = {end: self.report.counts.get(f"legal at the {end}") for end in ENDS}
         if not any(told.values()):
             return list(ENDS)
         return [end for end in ENDS if not told[end]] or list(ENDS)
@@ -189,7 +189,7 @@ class Situation:
         So it may where it is to stand on another face, or where grasps are legal at each end, but
         none at both, and nothing is a support.
         """
-        legal = [self.report.funnel.get(f"legal at the {end}", 0) for end in ENDS]
+        legal = [self.report.counts.get(f"legal at the {end}", 0) for end in ENDS]
         supports = [body for body in [*self.cell.fixtures, *self.cell.parts] if body.support]
         return self.is_turned_over or (min(legal) > 0 and not supports)
 

@@ -64,10 +64,10 @@ def _of_tries(stages: dict[str, Stage], goal: GoalReport, options: PlanOptions) 
 
 def _of_regrasps(goal: GoalReport) -> list[str]:
     counts = {
-        "grasps of the part": goal.funnel.get("grasps of the part", 0),
-        "resting poses": goal.funnel.get("resting poses", 0),
-        "placements": goal.funnel.get("placements looked at", 0),
-        "sequences": goal.funnel.get("regrasp sequences tried", 0),
+        "grasps of the part": goal.counts.get("grasps of the part", 0),
+        "resting poses": goal.counts.get("resting poses", 0),
+        "placements": goal.counts.get("placements looked at", 0),
+        "sequences": goal.counts.get("regrasp sequences tried", 0),
     }
     if not counts["grasps of the part"]:
         return []

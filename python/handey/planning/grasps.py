@@ -92,7 +92,7 @@ class Grasps:
         while self._kinds:
             kind = self._kinds.pop(0)
             yield from self._of_kind(kind)
-            if not asked and not self._report.funnel.get("legal grasp poses"):
+            if not asked and not self._report.counts.get("legal grasp poses"):
                 asked = True
                 give_up()
             # Faces once more, before others are looked at.
@@ -103,7 +103,7 @@ class Grasps:
             while self._denser:
                 self._begin(*self._denser.pop(0))
             yield from self._by_turns(self._approached, QUICK)
-        if not self._report.funnel.get("legal grasp poses") and elsewhere():
+        if not self._report.counts.get("legal grasp poses") and elsewhere():
             return
         yield from self._by_turns(self._approached)
 
@@ -123,7 +123,7 @@ class Grasps:
         yield from self._legal(ranking.ranked)
 
     def _approached(self) -> bool:
-        return bool(self._report.funnel.get("approached"))
+        return bool(self._report.counts.get("approached"))
 
     def _begin(self, kind: _core.PairChoice, legality: _core.LegalityOptions) -> None:
         """Look denser at the best pairs from now on."""

@@ -120,10 +120,10 @@ class Regrasp:
         told: dict[str, int] = {}
         for search in searches:
             tried = {what: told.get(what, 0) for what in TRIED}
-            told |= search.told.funnel
-            told |= {what: n + search.told.funnel.get(what, 0) for what, n in tried.items()}
+            told |= search.told.counts
+            told |= {what: n + search.told.counts.get(what, 0) for what, n in tried.items()}
         for what, count in told.items():
-            report.funnel[what] = report.funnel.get(what, 0) + count
+            report.counts[what] = report.counts.get(what, 0) + count
         for search in searches:
             report.attempts += search.told.attempts
         if not self.words:

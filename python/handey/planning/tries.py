@@ -121,7 +121,7 @@ class Tries:
             if self.unconnected >= stop_at:
                 return None
             self.grasps += 1
-            found = self.report.funnel.get("legal grasp poses", self.grasps)
+            found = self.report.counts.get("legal grasp poses", self.grasps)
             self._announce(f"grasp {self.grasps} of {found}")
             for q_pick in aim.q_pick[:2]:
                 attempt = _Try(self.grasps, describe(pair, aim), pair, aim, q_pick)

@@ -71,13 +71,13 @@ class _Needs:
 class Told:
     """What a search has to say: counts, reasons, attempts."""
 
-    funnel: dict[str, int] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     attempts: list[Attempt] = field(default_factory=list)
 
     def count(self, what: str, more: int = 1) -> None:
         """Add to a count."""
-        self.funnel[what] = self.funnel.get(what, 0) + more
+        self.counts[what] = self.counts.get(what, 0) + more
 
     def reason(self, reason: str) -> None:
         """Tell a reason, once."""

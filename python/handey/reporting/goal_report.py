@@ -37,7 +37,7 @@ class GoalReport:
         text: the goal in words.
         status: "planned", "met already", "failed", "stopped" (planning was, while it was tried) or
             "not tried".
-        funnel: counts by stage, in the order of the stages.
+        counts: of what was looked at and what came of it, by name, in the order met.
         reasons: why grasps fell before they were tried, most frequent first.
         attempts: the grasps that were tried, in order.
         grasp: the grasp chosen, in words; empty without one.
@@ -58,7 +58,7 @@ class GoalReport:
     goal: int
     text: str
     status: str = "not tried"
-    funnel: dict[str, int] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     attempts: list[Attempt] = field(default_factory=list)
     grasp: str = ""
@@ -76,12 +76,12 @@ class GoalReport:
 
     def begin(self, looked: Funnel) -> None:
         """A goal may be tried again from another state of the cell: only the last try is told."""
-        self.funnel, self.reasons, self.attempts, self.refusals = {}, [], [], []
+        self.counts, self.reasons, self.attempts, self.refusals = {}, [], [], []
         self.looked = looked
 
     def fail(self, reasons: list[Reason]) -> None:
         """It failed before any grasp was looked at."""
-        self.funnel, self.attempts, self.status = {}, [], "failed"
+        self.counts, self.attempts, self.status = {}, [], "failed"
         self.reasons, self.refusals, self.looked = [r.text for r in reasons], list(reasons), None
 
     def prove(self, text: str, cause: Reason | None) -> None:
@@ -96,8 +96,8 @@ class GoalReport:
             self.reasons.append(reason.text)
 
     def add(self, stage: str, count: int) -> None:
-        """Add to a count of the funnel."""
-        self.funnel[stage] = self.funnel.get(stage, 0) + count
+        """Add to a count."""
+        self.counts[stage] = self.counts.get(stage, 0) + count
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as JSON values."""
@@ -105,7 +105,7 @@ class GoalReport:
             "goal": self.goal,
             "text": self.text,
             "status": self.status,
-            "funnel": self.funnel,
+            "counts": self.counts,
             "reasons": self.reasons,
             "grasp": self.grasp,
             "jaws": self.jaws,

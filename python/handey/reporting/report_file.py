@@ -115,7 +115,7 @@ def _goal(index: int, field: Field) -> GoalReport:
     entries = _entries(field)
     goal = GoalReport(_count(entries, "goal", index), _text(entries, "text"))
     goal.status = _text(entries, "status") or goal.status
-    goal.funnel = {key: value.count() or 0 for key, value in _of(entries, "funnel").items()}
+    goal.counts = {key: value.count() or 0 for key, value in _of(entries, "counts").items()}
     goal.reasons = _texts(entries, "reasons")
     goal.attempts = [_attempt(_entries(item)) for item in _list(entries, "attempts")]
     goal.grasp, goal.proof = _text(entries, "grasp"), _text(entries, "proof")

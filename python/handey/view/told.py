@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from handey.reporting.advice import Advice
 from handey.reporting.goal_report import GoalReport
-from handey.reporting.reasons import Reason, Stage
+from handey.reporting.reasons import STAGES, Reason, Stage
 from handey.reporting.report_file import ToldReport
 
 __all__ = ["STAGE_WORDS", "told"]
@@ -30,14 +30,6 @@ STAGE_WORDS = {
     "reachable": "reachable at both ends",
     "approached": "approached, lifted, put down",
     "connected": "connected by gross motions",
-}
-UNITS = {
-    "found": "feature pairs",
-    "spanned": "feature pairs",
-    "unobstructed": "feature pairs",
-    "reachable": "hand poses",
-    "approached": "grasps",
-    "connected": "grasps",
 }
 AT_ONCE = 4  # Choice: reasons of a stage; the others are one click away
 MOST_ATTEMPTS = 30
@@ -139,7 +131,7 @@ def _funnel(goal: GoalReport) -> list[str]:
     if goal.stages:
         items = "\n".join(_stage(goal.goal, stage) for stage in goal.stages)
         return [f'<ol class="funnel" aria-label="Funnel of grasps">\n{items}\n</ol>']
-    lines = [f"{count} {name}" for name, count in goal.funnel.items()] + goal.reasons
+    lines = [f"{count} {name}" for name, count in goal.counts.items()] + goal.reasons
     return (
         [f'<ul class="plain">{"".join(f"<li>{_text(x)}</li>" for x in lines)}</ul>']
         if lines
@@ -148,7 +140,7 @@ def _funnel(goal: GoalReport) -> list[str]:
 
 
 def _stage(goal: int, stage: Stage) -> str:
-    unit, words = UNITS[stage.name], STAGE_WORDS[stage.name]
+    unit, words = STAGES[stage.name], STAGE_WORDS[stage.name]
     share = 100 * stage.passed / stage.entered if stage.entered else 0.0
     told = [
         f'<li class="stage" data-stage="{stage.name}">',
