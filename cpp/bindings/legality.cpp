@@ -3,6 +3,7 @@
 
 #include "configurations.hpp"
 #include "handey/collision/checker.hpp"
+#include "handey/grasp/blocked_poses.hpp"
 #include "interruptible.hpp"
 
 namespace handey::bindings {
@@ -130,6 +131,42 @@ Returns:
 
 Raises:
     InvalidInput: for a scene with a part in the hand, an unknown part, bad options.)");
+  py::class_<PoseBlock>(m, "PoseBlock", "What blocks hand poses.")
+      .def_readonly("end", &PoseBlock::end, "GraspEnd.")
+      .def_readonly("mover", &PoseBlock::mover, "Body of the hand.")
+      .def_readonly("body", &PoseBlock::body, "That it is in.");
+  py::class_<BlockedPoses, std::shared_ptr<BlockedPoses>>(
+      m, "BlockedPoses", R"(Hand poses that are certainly illegal, for the searches of one scene.
+
+Not to be used by several threads at once.
+
+Args:
+    scene: GraspScene.
+
+Raises:
+    InvalidInput: for a scene with a part in the hand.)")
+      .def(py::init<const GraspScene&>(), "scene"_a, Unlocked())
+      .def(
+          "find",
+          [](BlockedPoses& self, const RankedPair& pair, const PlanarPose& middle, bool flipped,
+             double shift, double half_turn) {
+            return self.find(pair.pair, middle, flipped, {shift, half_turn});
+          },
+          "pair"_a, "middle"_a, "flipped"_a, py::kw_only(), "shift"_a = 0.0, "half_turn"_a = 0.0,
+          Unlocked(), R"(What blocks all hand poses about one.
+
+Args:
+    pair: RankedPair.
+    middle: PlanarPose.
+    flipped: the hand is turned half round.
+    shift: that the poses are from the middle at most [m].
+    half_turn: that they are turned at most [rad].
+
+Returns:
+    PoseBlock, or None where that is not proved.
+
+Raises:
+    InvalidInput: E_RANGE, E_NUMBER.)");
   py::class_<LegalGraspSearch>(m, "LegalGraspSearch",
                                R"(find_legal_grasps in portions, for pairs looked at by turns.
 
@@ -138,13 +175,14 @@ Args:
     solver: SphericalWristSolver of the scene's robot.
     pair: RankedPair.
     options: LegalityOptions.
+    blocked: BlockedPoses of the scene: what it proves to be illegal is not looked at further.
 
 Raises:
     InvalidInput: as find_legal_grasps.)")
       .def(py::init<const GraspScene&, const SphericalWristSolver&, const RankedPair&,
-                    const LegalityOptions&>(),
-           "scene"_a, "solver"_a, "pair"_a, "options"_a = LegalityOptions(), py::keep_alive<1, 3>(),
-           Unlocked())
+                    const LegalityOptions&, std::shared_ptr<BlockedPoses>>(),
+           "scene"_a, "solver"_a, "pair"_a, "options"_a = LegalityOptions(), "blocked"_a = nullptr,
+           py::keep_alive<1, 3>(), Unlocked())
       .def_property_readonly("is_done", &LegalGraspSearch::is_done,
                              "No candidate is left, or enough are legal.")
       .def("next", &LegalGraspSearch::next, "candidates"_a, Unlocked(),

@@ -22,6 +22,7 @@ __all__: list[str] = [
     "BlockedCells",
     "BlockedProof",
     "Body",
+    "BlockedPoses",
     "BodyRef",
     "Box",
     "BumpLine",
@@ -98,6 +99,7 @@ __all__: list[str] = [
     "PlanarFace",
     "PlanarPose",
     "PlaneSearchOptions",
+    "PoseBlock",
     "QuasipotentialOptions",
     "RankedPair",
     "Ranking",
@@ -2693,6 +2695,65 @@ class LegalGrasps:
         Where the part's weight would turn it in the jaws.
         """
 
+class PoseBlock:
+    """
+    What blocks hand poses.
+    """
+    @property
+    def body(self) -> str:
+        """
+        That it is in.
+        """
+    @property
+    def end(self) -> GraspEnd:
+        """
+        GraspEnd.
+        """
+    @property
+    def mover(self) -> str:
+        """
+        Body of the hand.
+        """
+
+class BlockedPoses:
+    """
+    Hand poses that are certainly illegal, for the searches of one scene.
+
+    Not to be used by several threads at once.
+
+    Args:
+        scene: GraspScene.
+
+    Raises:
+        InvalidInput: for a scene with a part in the hand.
+    """
+    def __init__(self, scene: GraspScene) -> None: ...
+    def find(
+        self,
+        pair: RankedPair,
+        middle: PlanarPose,
+        flipped: bool,
+        *,
+        shift: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        half_turn: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> PoseBlock | None:
+        """
+        What blocks all hand poses about one.
+
+        Args:
+            pair: RankedPair.
+            middle: PlanarPose.
+            flipped: the hand is turned half round.
+            shift: that the poses are from the middle at most [m].
+            half_turn: that they are turned at most [rad].
+
+        Returns:
+            PoseBlock, or None where that is not proved.
+
+        Raises:
+            InvalidInput: E_RANGE, E_NUMBER.
+        """
+
 class LegalGraspSearch:
     """
     find_legal_grasps in portions, for pairs looked at by turns.
@@ -2702,6 +2763,7 @@ class LegalGraspSearch:
         solver: SphericalWristSolver of the scene's robot.
         pair: RankedPair.
         options: LegalityOptions.
+        blocked: BlockedPoses of the scene: what it proves to be illegal is not looked at further.
 
     Raises:
         InvalidInput: as find_legal_grasps.
@@ -2712,6 +2774,7 @@ class LegalGraspSearch:
         solver: SphericalWristSolver,
         pair: RankedPair,
         options: LegalityOptions = ...,
+        blocked: BlockedPoses | None = None,
     ) -> None: ...
     def next(self, candidates: typing.SupportsInt | typing.SupportsIndex) -> list[GraspPose]:
         """

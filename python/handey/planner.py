@@ -239,8 +239,7 @@ def _plan_goal(work: Workspace, options: PlanOptions, report: GoalReport) -> Car
     carry = tries.reach_any(first) or regrasp.run(0, tries.regrasps_worth(0))
     if carry is None and regrasp.was_needed:
         # The tables are samples: what they have not may be found where all is looked at.
-        grasps = Grasps(work, options, report)
-        carry = tries.reach_any(grasps.first())
+        carry = tries.reach_any(grasps.remaining())
     if carry is None:
         work.give_up(True)
     for round_ in range(1, len(options.sampling_rounds)):

@@ -11,12 +11,9 @@
 
 namespace handey {
 
-using cspace::AxisMotion;
 using cspace::coarse_cells;
 using cspace::kMostCoarseCells;
 using cspace::kNoPair;
-using cspace::PlacedSolid;
-using cspace::RelativeMotion;
 using cspace::SolidPair;
 using Eigen::Vector3d;
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "handey/collision/overlap_proof.hpp"
 #include "handey/cspace/separation.hpp"
-#include "overlap_proof.hpp"
 
 namespace handey {
 
@@ -71,13 +71,13 @@ struct BlockedCells::Impl {
   double wrist_slack(int mover, const InnerSolid& solid);
   void place(int level, const CellIndex& cell, int joints);
   std::size_t key(int level, const CellIndex& cell, int joints) const;
-  cspace::RelativeMotion motion_of(const cspace::SolidPair& pair) const;
+  RelativeMotion motion_of(const cspace::SolidPair& pair) const;
   bool can_meet(const cspace::SolidPair& pair);
   const Near& near_pairs(const CellIndex& coarse, int joints);
   int prove_shared(int level, const CellIndex& cell, int joints);
   bool proves(const cspace::SolidPair& pair) const;
-  cspace::PlacedSolid placed_a(const cspace::SolidPair& pair) const;
-  cspace::PlacedSolid placed_b(const cspace::SolidPair& pair) const;
+  PlacedSolid placed_a(const cspace::SolidPair& pair) const;
+  PlacedSolid placed_b(const cspace::SolidPair& pair) const;
 
   std::array<std::vector<Near>, 3> near_;  ///< by the number of joints, then the coarse cell
   /// Of the cells that share their first 1 or 2 indices: per level the pair, or not yet looked.
@@ -86,7 +86,7 @@ struct BlockedCells::Impl {
   double finer_ = 1.0;    ///< chord of the finest cells' joints over that of the placed cell's
   Configuration middle_;  ///< the joints after the third stay here
   std::vector<double> range_middle_, range_half_;  ///< of all joints [rad]
-  std::vector<cspace::AxisMotion> axes_;
+  std::vector<AxisMotion> axes_;
   std::vector<Pose> X_RB_, X_RM_;
   std::vector<Moving> moving_;
   int placed_level_ = -1, placed_joints_ = 0;

@@ -8,19 +8,15 @@
 #include <tuple>
 #include <utility>
 
-#include "hand_cell.hpp"
 #include "handey/errors.hpp"
 #include "handey/grasp/hand_reach.hpp"
+#include "handey/grasp/hand_solids.hpp"
 #include "handey/grasp/target.hpp"
 #include "handey/stop.hpp"
 
 namespace handey {
 namespace {
 
-using cspace::Blocked;
-using cspace::CellMotion;
-using cspace::HandCell;
-using cspace::HandSolids;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -46,6 +42,12 @@ FeatureOptions all_features(int most_pairs) {
   options.most_beyond_faces = most_pairs;
   return options;
 }
+
+/// Hand poses within (half, half, half_turn) of the middle, in the grasp plane.
+struct HandCell {
+  PlanarPose middle;
+  int level = 0;  ///< half as wide as a cell of the level before
+};
 
 /// What made poses illegal, by volume.
 class Tally {
@@ -158,8 +160,8 @@ class Search {
   double width_at(int level) const { return options_.spacing * std::pow(2.0, kJudged - level); }
   double turn_at(int level) const { return options_.turn * std::pow(2.0, kJudged - level); }
 
-  CellMotion motion_of(const FeaturePair& pair, int level) const {
-    CellMotion motion;
+  HandMotion motion_of(const FeaturePair& pair, int level) const {
+    HandMotion motion;
     motion.shift = 0.5 * std::sqrt(2.0) * width_at(level) * (1.0 + pair.taper.norm());
     motion.half_turn = 0.5 * turn_at(level);
     return motion;
@@ -213,7 +215,7 @@ class Search {
   }
 
   Verdict judge(const FeaturePair& pair, const HandCell& cell) {
-    const CellMotion motion = motion_of(pair, cell.level);
+    const HandMotion motion = motion_of(pair, cell.level);
     const Gripper& gripper = robot_.gripper;
     Gripper grown = gripper;
     const double grow = motion.of(0.5 * std::hypot(gripper.pad_width, gripper.pad_length));
@@ -242,7 +244,7 @@ class Search {
     return Verdict::Blocked;
   }
 
-  Verdict judge(const FeaturePair& pair, const Pose& X_PH, double width, const CellMotion& motion,
+  Verdict judge(const FeaturePair& pair, const Pose& X_PH, double width, const HandMotion& motion,
                 int level, bool touches, IllegalCause& cause) {
     bool doubt = false, proved = false;
     for (const auto& standing : standing_) {
@@ -250,7 +252,7 @@ class Search {
       if (is_beyond_reach(X_RH, motion, cause)) return Verdict::Blocked;
       standing->solids.set_width(width);
       const Vector3d axis = standing->X_RP.linear() * pair.X_PG.linear().col(2);
-      const std::optional<Blocked> hit = standing->solids.blocking(X_RH, axis, motion);
+      const std::optional<HandBlock> hit = standing->solids.blocking(X_RH, axis, motion);
       if (hit) {
         cause = {};
         cause.mover = standing->solids.mover_name(hit->mover);
@@ -274,7 +276,7 @@ class Search {
     return legal ? Verdict::Legal : Verdict::Doubt;
   }
 
-  bool is_beyond_reach(const Pose& X_RH, const CellMotion& motion, IllegalCause& cause) const {
+  bool is_beyond_reach(const Pose& X_RH, const HandMotion& motion, IllegalCause& cause) const {
     const Vector3d from = X_RH * reach_.p_HC - reach_.centre;
     const double along = from.dot(reach_.axis);
     const double out = (from - along * reach_.axis).norm();
@@ -288,7 +290,7 @@ class Search {
 
   /// Illegal by so much that no other pose of the cell can be expected to be legal? Only in cells
   /// that are fine enough.
-  Verdict judge_centre(Standing& standing, const Pose& X_RH, double width, const CellMotion& motion,
+  Verdict judge_centre(Standing& standing, const Pose& X_RH, double width, const HandMotion& motion,
                        int level, IllegalCause& cause) {
     const InverseResult inverse = solver_.solve(X_RH);
     cost_ += kCostOfJoints;
@@ -322,7 +324,7 @@ class Search {
 
   static bool is_deep(Standing& standing, const Configuration& closed, double depth,
                       IllegalCause& cause) {
-    const std::optional<Blocked> hit = standing.solids.deep_in_arm(closed, depth);
+    const std::optional<HandBlock> hit = standing.solids.deep_in_arm(closed, depth);
     if (!hit) return false;
     cause = {};
     cause.mover = standing.solids.mover_name(hit->mover);

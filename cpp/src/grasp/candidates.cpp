@@ -65,28 +65,35 @@ std::vector<double> approach_directions(const RankedPair& pair, int count) {
   return directions;
 }
 
-/// Where the middle of the pads may be: the targets, and the lattice that the options ask for.
-struct Places {
-  std::vector<Eigen::Vector2d> points;
-  std::size_t targets = 0;  ///< the first of them
-};
-
-Places places_of(const RankedPair& pair, const Gripper& gripper, double spacing) {
-  Places places{pair.targets, pair.targets.size()};
-  if (spacing <= 0.0 || pair.unobstructed.empty()) return places;
+/// Over all of the unobstructed area and half a pad round it.
+PoseLattice lattice_over(const RankedPair& pair, const Gripper& gripper, double spacing) {
+  PoseLattice lattice;
+  if (spacing <= 0.0 || pair.unobstructed.empty()) return lattice;
   Eigen::AlignedBox2d extent;
   for (const Polygon& loop : pair.unobstructed.loops) {
     for (const Eigen::Vector2d& corner : loop) extent.extend(corner);
   }
   const double round = 0.5 * std::max(gripper.pad_length, gripper.pad_width);
   const Eigen::Vector2d half = 0.5 * extent.sizes() + Eigen::Vector2d::Constant(round);
-  const int columns = static_cast<int>(half.x() / spacing);
-  const int rows = static_cast<int>(half.y() / spacing);
-  for (int row = -rows; row <= rows; ++row) {
-    for (int column = -columns; column <= columns; ++column) {
-      const Eigen::Vector2d point = extent.center() + spacing * Eigen::Vector2d(column, row);
+  lattice.centre = extent.center();
+  lattice.spacing = spacing;
+  lattice.columns = static_cast<int>(half.x() / spacing);
+  lattice.rows = static_cast<int>(half.y() / spacing);
+  return lattice;
+}
+
+/// The targets, and the places of the lattice that are near enough.
+std::vector<Place> places_of(const RankedPair& pair, const Gripper& gripper,
+                             const PoseLattice& lattice) {
+  std::vector<Place> places;
+  for (const Eigen::Vector2d& target : pair.targets) places.push_back({target, true});
+  if (lattice.spacing <= 0.0) return places;
+  const double round = 0.5 * std::max(gripper.pad_length, gripper.pad_width);
+  for (int row = -lattice.rows; row <= lattice.rows; ++row) {
+    for (int column = -lattice.columns; column <= lattice.columns; ++column) {
+      const Eigen::Vector2d point = lattice.centre + lattice.spacing * Eigen::Vector2d(column, row);
       if ((nearest_point(pair.unobstructed, point) - point).norm() > round) continue;
-      places.points.push_back(point);
+      places.push_back({point, false, column, row});
     }
   }
   return places;
@@ -163,22 +170,28 @@ CandidateMaker::CandidateMaker(const RankedPair& pair, const Robot& robot,
       finger_(finger_extent(robot)),
       directions_(approach_directions(pair, options.directions)) {
   for (const double theta : directions_) along_edge_.push_back(is_along_edge(pair, theta) ? 1 : 0);
-  Places places = places_of(pair, gripper_, options.spacing);
-  places_ = std::move(places.points);
-  targets_ = places.targets;
+  lattice_ = lattice_over(pair, gripper_, options.spacing);
+  places_ = places_of(pair, gripper_, lattice_);
+  lattice_.directions = directions_;
+  std::sort(lattice_.directions.begin(), lattice_.directions.end());
+  for (const double theta : directions_) {
+    const auto at = std::lower_bound(lattice_.directions.begin(), lattice_.directions.end(), theta);
+    turns_.push_back(static_cast<int>(at - lattice_.directions.begin()));
+  }
 }
 
 void CandidateMaker::make(std::size_t slot, CandidateList& list) {
   throw_if_stopped();
   const std::size_t place = slot / directions_.size(), turn = slot % directions_.size();
-  const Eigen::Vector2d& target = places_[place];
+  const Place& target = places_[place];
   const double theta = directions_[turn];
   for (const double share : kDrawnBack) {
-    if (share > 0.0 && place >= targets_) break;  // the lattice has these poses
+    if (share > 0.0 && !target.is_target) break;  // the lattice has these poses
     const double back = share * gripper_.pad_length;
     Candidate candidate;
-    candidate.pose = {target.x() - back * std::cos(theta), target.y() - back * std::sin(theta),
-                      theta};
+    candidate.pose = {target.point.x() - back * std::cos(theta),
+                      target.point.y() - back * std::sin(theta), theta};
+    if (!target.is_target) candidate.point = {target.column, target.row, turns_[turn]};
     candidate.along_edge = along_edge_[turn] != 0;
     candidate.group = static_cast<int>(slot);
     if (!add(candidate, share == 0.0, list) && share > 0.0) break;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "handey/grasp/legality.hpp"
+#include "lattice_cells.hpp"
 #include "obstruction.hpp"
 #include "pad_contact.hpp"
 
@@ -27,6 +28,7 @@ struct Candidate {
   bool along_edge = false;    ///< approach normal or parallel to a long edge of the overlap
   double promise = 0.0;  ///< the part of the merit known without the arm, less for blocked fingers
   int group = 0;         ///< candidates that differ only by how far the pad is drawn back
+  LatticePoint point;    ///< where on the lattice, if it is
 };
 
 struct CandidateList {
@@ -40,6 +42,13 @@ struct CandidateList {
   double least_excess = 0.0;   ///< by which it does [m]
 };
 
+/// Where the middle of the pads may be.
+struct Place {
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< in (x, y) of G [m]
+  bool is_target = false;
+  int column = 0, row = 0;  ///< of the lattice, if it is none
+};
+
 /// Makes candidates slot by slot: a slot is a place for the pads and a direction of the hand.
 class CandidateMaker {
  public:
@@ -47,6 +56,8 @@ class CandidateMaker {
   CandidateMaker(const RankedPair& pair, const Robot& robot, const Eigen::Vector2d& down_in_G,
                  const ContactDemand& demand, const Hold& hold, const LegalityOptions& options);
   std::size_t slots() const { return places_.size() * directions_.size(); }
+  /// What the options ask for beside the targets.
+  const PoseLattice& lattice() const { return lattice_; }
   /// Adds the slot's candidates to the list, or counts why it has none.
   void make(std::size_t slot, CandidateList& list);
 
@@ -62,8 +73,9 @@ class CandidateMaker {
   FingerExtent finger_;
   std::vector<double> directions_;
   std::vector<char> along_edge_;  ///< per direction
-  std::vector<Eigen::Vector2d> places_;
-  std::size_t targets_ = 0;  ///< the first of the places
+  std::vector<int> turns_;        ///< per direction, its index in the lattice
+  std::vector<Place> places_;     ///< the targets first
+  PoseLattice lattice_;
 };
 
 /// All of them, most promising first.

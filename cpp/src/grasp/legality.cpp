@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "candidates.hpp"
+#include "handey/grasp/blocked_poses.hpp"
 #include "handey/stop.hpp"
 #include "pose_test.hpp"
 #include "ranges.hpp"
@@ -121,7 +124,7 @@ GraspPose hand_pose_of(const RankedPair& pair, const PlanarPose& in_plane) {
 
 struct LegalGraspSearch::Impl {
   Impl(const GraspScene& scene_in, const SphericalWristSolver& solver, const RankedPair& pair_in,
-       const LegalityOptions& options_in)
+       const LegalityOptions& options_in, std::shared_ptr<BlockedPoses> blocked_in)
       : scene(scene_in),
         pair(pair_in),
         options(options_in),
@@ -129,7 +132,9 @@ struct LegalGraspSearch::Impl {
         demand(grasp::contact_demand(pair, scene.cell.robot->gripper, options)),
         hold(part_of(scene), options),
         maker(pair, *scene.cell.robot, down, demand, hold, options),
+        blocked(std::move(blocked_in)),
         tester(scene, solver, options) {
+    if (blocked) cells.emplace(pair.pair, maker.lattice(), *blocked);
     if (options.spread) return;
     list = grasp::make_candidates(pair, *scene.cell.robot, down, demand, hold, options);
     slot = maker.slots();
@@ -203,6 +208,12 @@ struct LegalGraspSearch::Impl {
     pose.flipped = flipped;
     pose.contact_area = candidate.contact_area;
     ++result.tried;
+    if (cells) {
+      if (const PoseBlock* block = cells->find(candidate.point, flipped)) {
+        count_blocked(*block, pose);
+        return;
+      }
+    }
     const grasp::PoseVerdict verdict = tester.test(pair.pair, pose, tally);
     count(result, verdict);
     if (verdict != grasp::PoseVerdict::Legal) return;
@@ -210,6 +221,13 @@ struct LegalGraspSearch::Impl {
                                       pose.contact_area, candidate.along_edge, down, demand);
     found.insert({candidate.group, flipped});
     result.poses.push_back(std::move(pose));
+  }
+
+  // Without a look at the arm.
+  void count_blocked(const PoseBlock& block, GraspPose& pose) {
+    pose.X_PH = pair.pair.X_PG * hand_in_plane(pose.in_plane, pose.flipped);
+    pose.width = pair.pair.width_at({pose.in_plane.x, pose.in_plane.y});
+    count(result, tester.add_blocked(block, pose, tally));
   }
 
   const GraspScene scene;
@@ -223,6 +241,8 @@ struct LegalGraspSearch::Impl {
   /// Candidates to test: all, or with `spread` those of the slots looked at that seem blocked.
   grasp::CandidateList list;
   std::size_t at = 0;  ///< candidates of the list that are tested
+  std::shared_ptr<BlockedPoses> blocked;
+  std::optional<grasp::LatticeCells> cells;
   grasp::PoseTester tester;
   grasp::Tally tally;
   std::set<std::pair<int, bool>> found;
@@ -230,9 +250,10 @@ struct LegalGraspSearch::Impl {
 };
 
 LegalGraspSearch::LegalGraspSearch(const GraspScene& scene, const SphericalWristSolver& solver,
-                                   const RankedPair& pair, const LegalityOptions& options) {
+                                   const RankedPair& pair, const LegalityOptions& options,
+                                   std::shared_ptr<BlockedPoses> blocked) {
   require_valid_input(scene, pair, options);
-  impl_ = std::make_unique<Impl>(scene, solver, pair, options);
+  impl_ = std::make_unique<Impl>(scene, solver, pair, options, std::move(blocked));
 }
 LegalGraspSearch::~LegalGraspSearch() = default;
 LegalGraspSearch::LegalGraspSearch(LegalGraspSearch&&) noexcept = default;

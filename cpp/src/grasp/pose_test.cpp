@@ -15,6 +15,7 @@ namespace {
 // Just before the pads touch, nothing but them may touch the part: then each stands off by this
 // [m]. Choice: what a contact may be deep; lower ribs on a face give way.
 constexpr double kStandOff = 5e-4;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();  // solutions
 // Full marks for the margins [rad], [-].
 constexpr double kLimitMargin = 0.35, kSingularityMargin = 0.3;
 
@@ -149,25 +150,29 @@ std::optional<PoseTester::Obstacle> PoseTester::first_obstacle(CollisionChecker&
   return Obstacle{*hit, involves(hand_links_), involves(finger_links_)};
 }
 
-std::vector<InverseSolution> PoseTester::collision_free(
-    End& end, const std::vector<InverseSolution>& solutions, const GraspPose& pose,
-    std::optional<Obstacle>& obstacle) {
-  std::vector<InverseSolution> free;
-  for (const InverseSolution& solution : solutions) {
+void PoseTester::find_free(End& end, const std::vector<InverseSolution>& solutions,
+                           const GraspPose& pose, std::size_t most, Free& free) {
+  while (free.looked_at < solutions.size() && free.solutions.size() < most) {
+    const InverseSolution& solution = solutions[free.looked_at++];
+    if (free.branch == solution.branch) {  // the same but for full turns
+      if (free.branch_is_free) free.solutions.push_back(solution);
+      continue;
+    }
+    free.branch = solution.branch;
     std::optional<Obstacle> found = first_obstacle(end.free_hand, solution.q, pose.opening);
-    if (!found && free.empty()) {
+    if (!found && free.solutions.empty()) {
       // The hand is the same for every configuration of this pose: once is enough.
       found = first_obstacle(end.free_hand, solution.q, pose.width + 2.0 * kStandOff);
     }
     if (!found) found = first_obstacle(end.closed_hand, solution.q, pose.width);
+    free.branch_is_free = !found;
     if (!found) {
-      free.push_back(solution);
+      free.solutions.push_back(solution);
       continue;
     }
-    obstacle = found;
-    if (found->of_hand && free.empty()) break;
+    free.obstacle = found;
+    if (found->of_hand && free.solutions.empty()) break;
   }
-  return free;
 }
 
 double PoseTester::joint_margin(const InverseSolution& solution) const {
@@ -209,6 +214,14 @@ std::vector<Eigen::VectorXd> PoseTester::soonest_first(
   return ordered;
 }
 
+PoseVerdict PoseTester::add_blocked(const PoseBlock& block, GraspPose& pose, Tally& tally) const {
+  const bool at_origin = block.end == GraspEnd::Origin;
+  pose.opening = openings(pose.width).front();
+  const std::string mover = display_name(block.mover), body = display_name(block.body);
+  tally.add({FallKind::Collision, block.end, -1, mover, body}, pose, mover + " hits " + body);
+  return at_origin ? PoseVerdict::CollidesAtOrigin : PoseVerdict::CollidesAtDestination;
+}
+
 PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& tally) {
   pose.X_PH = pair.X_PG * hand_in_plane(pose.in_plane, pose.flipped);
   pose.width = pair.width_at({pose.in_plane.x, pose.in_plane.y});
@@ -220,27 +233,26 @@ PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& ta
   PoseVerdict verdict = PoseVerdict::CollidesAtOrigin;
   for (const double opening : openings(pose.width)) {
     pose.opening = opening;
-    std::optional<Obstacle> obstacle;
-    End* end = &origin_;
-    const std::vector<InverseSolution> pick = collision_free(*end, at_origin, pose, obstacle);
-    std::vector<InverseSolution> place;
-    if (!pick.empty()) {
-      end = &destination_;
-      obstacle.reset();
-      place = collision_free(*end, at_destination, pose, obstacle);
-    }
-    if (!place.empty()) {
-      pose.q_pick = soonest_first(pick);
-      pose.q_place = soonest_first(place);
-      pose.merit = 0.2 * std::min(best_margin(pick), best_margin(place));
+    // One at the origin will do until it is known that there is one at the destination.
+    Free pick, place;
+    find_free(origin_, at_origin, pose, 1, pick);
+    if (!pick.solutions.empty()) find_free(destination_, at_destination, pose, kAll, place);
+    if (!place.solutions.empty()) {
+      find_free(origin_, at_origin, pose, kAll, pick);
+      pose.q_pick = soonest_first(pick.solutions);
+      pose.q_place = soonest_first(place.solutions);
+      pose.merit = 0.2 * std::min(best_margin(pick.solutions), best_margin(place.solutions));
       return PoseVerdict::Legal;
     }
-    verdict = end == &origin_ ? PoseVerdict::CollidesAtOrigin : PoseVerdict::CollidesAtDestination;
+    const bool fell_at_origin = pick.solutions.empty();
+    const std::optional<Obstacle>& obstacle = fell_at_origin ? pick.obstacle : place.obstacle;
+    verdict = fell_at_origin ? PoseVerdict::CollidesAtOrigin : PoseVerdict::CollidesAtDestination;
     const bool narrower_helps = obstacle && obstacle->of_finger;
     if (narrower_helps && opening > openings(pose.width).back() + 1e-6) continue;
     if (obstacle) {
       const std::string mover = display_name(obstacle->hit.a), body = display_name(obstacle->hit.b);
-      tally.add({FallKind::Collision, end->end, -1, mover, body}, pose, mover + " hits " + body);
+      const GraspEnd end = fell_at_origin ? GraspEnd::Origin : GraspEnd::Destination;
+      tally.add({FallKind::Collision, end, -1, mover, body}, pose, mover + " hits " + body);
     }
     break;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "handey/grasp/blocked_poses.hpp"
 #include "handey/grasp/legality.hpp"
 
 namespace handey::grasp {
@@ -55,6 +56,8 @@ class PoseTester {
   /// Fills X_PH, width, opening, q_pick, q_place of `pose` (in_plane and flipped are given); merit
   /// gets the joint margin's share, 0..0.2.
   PoseVerdict test(const FeaturePair& pair, GraspPose& pose, Tally& tally);
+  /// Counts a pose of which X_PH and width are known, and that it is illegal.
+  PoseVerdict add_blocked(const PoseBlock& block, GraspPose& pose, Tally& tally) const;
 
  private:
   struct End {
@@ -68,14 +71,20 @@ class PoseTester {
     bool of_hand = false;    // the hand itself: no other configuration of the same pose helps
     bool of_finger = false;  // a narrower opening may help
   };
+  /// Of the solutions at an end.
+  struct Free {
+    std::vector<InverseSolution> solutions;  // the legal ones
+    std::optional<Obstacle> obstacle;        // of the last that is not
+    std::size_t looked_at = 0;
+    int branch = -1;  // of the last
+    bool branch_is_free = false;
+  };
   static End make_end(const GraspScene& scene, const Pose& X_WP, GraspEnd end);
 
   std::vector<InverseSolution> inverse(const End& end, const GraspPose& pose, Tally& tally) const;
-  /// The legal ones of `solutions`, or the obstacle of the last.
-  std::vector<InverseSolution> collision_free(End& end,
-                                              const std::vector<InverseSolution>& solutions,
-                                              const GraspPose& pose,
-                                              std::optional<Obstacle>& obstacle);
+  /// Goes on from the solutions looked at until `most` of them are legal.
+  void find_free(End& end, const std::vector<InverseSolution>& solutions, const GraspPose& pose,
+                 std::size_t most, Free& free);
   std::optional<Obstacle> first_obstacle(CollisionChecker& checker, const Eigen::VectorXd& q,
                                          double opening) const;
   double joint_margin(const InverseSolution& solution) const;

@@ -136,6 +136,11 @@ struct SphericalWristSolver::Search {
   int joint = -1;
 
   double reference_of(Eigen::Index i) const { return reference ? (*reference)[i] : 0.0; }
+  /// Are joints already so far past their limits that nothing can come of the others: there is a
+  /// solution, or a branch that misses less?
+  bool is_settled(double past_limit) const {
+    return past_limit > 0.0 && (!result.solutions.empty() || past_limit >= least_excess);
+  }
   void note_miss(InverseStatus status, double metres) {
     out_of_reach = true;
     if (metres >= least_miss) return;
@@ -231,6 +236,16 @@ WristReach SphericalWristSolver::wrist_reach() const {
   return reach;
 }
 
+/// Past the nearer limit whatever the turn [rad]; 0 within, to rounding.
+double SphericalWristSolver::past_limit_of(Eigen::Index i, double angle) const {
+  const JointLimit& limit = limits_[static_cast<std::size_t>(i)];
+  if (!std::isfinite(limit.lower) || !std::isfinite(limit.upper)) return 0.0;
+  const double low = limit.lower - kLimitTolerance, high = limit.upper + kLimitTolerance;
+  const double lowest = angle + 2.0 * kPi * std::ceil((low - angle) / (2.0 * kPi));
+  if (lowest <= high) return 0.0;
+  return std::min(lowest - limit.upper, limit.lower - (lowest - 2.0 * kPi));
+}
+
 void SphericalWristSolver::solve_shoulder(const Eigen::Vector3d& centre, Search& search) const {
   const Eigen::Vector3d w1 = directions_.col(0), w2 = directions_.col(1), p1 = points_.col(0);
   const Eigen::Vector3d v = centre - p1;
@@ -282,6 +297,9 @@ void SphericalWristSolver::solve_elbow(double q1, int branch, double margin,
     const Eigen::Vector3d reached = rotation_about(w3, q3) * (wrist_centre_ - p3) + (p3 - p2);
     const bool on_axis = d < kSingular * far;
     const double q2 = on_axis ? search.reference_of(1) : angle_about(w2, reached, target);
+    const double past_limit =
+        std::max({past_limit_of(0, q1), past_limit_of(1, q2), past_limit_of(2, q3)});
+    if (exact_ && search.is_settled(past_limit)) continue;
     solve_wrist({q1, q2, q3, branch + 2 * side, margin, elbow}, search);
   }
 }
@@ -336,9 +354,9 @@ void SphericalWristSolver::add_wraps(const Vector6& q, int branch, const Singula
     lowest[i] = q[i] + 2.0 * kPi * std::ceil((low - q[i]) / (2.0 * kPi));
     turns[at] = static_cast<int>(std::floor((high - lowest[i]) / (2.0 * kPi)));
     if (turns[at] >= 0) continue;
-    const double above = lowest[i] - limit.upper, below = limit.lower - (lowest[i] - 2.0 * kPi);
-    if (std::min(above, below) > worst) {
-      worst = std::min(above, below);
+    const double past_limit = past_limit_of(i, q[i]);
+    if (past_limit > worst) {
+      worst = past_limit;
       worst_joint = static_cast<int>(i);
     }
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
 #include <set>
 
 #include "handey/errors.hpp"
@@ -282,6 +284,44 @@ TEST(SphericalWrist, NamesTheJointThatIsPastItsLimit) {
   EXPECT_EQ(result.joint, 4);
   EXPECT_NEAR(result.excess, 0.2, 1e-9);
   EXPECT_EQ(result.reason, "joint5 0.2 rad past its limit");
+}
+
+TEST(SphericalWrist, TellsOfAllBranchesTheOneThatIsLeastPastItsLimits) {
+  Robot robot = puma();
+  for (ArmJoint& joint : robot.joints) {
+    joint.limit.lower = -std::numeric_limits<double>::infinity();
+    joint.limit.upper = std::numeric_limits<double>::infinity();
+  }
+  const SphericalWristSolver unlimited(robot);
+  const double half[] = {0.5, 0.3, 0.6, 0.7, 0.4, 0.9};
+  for (std::size_t i = 0; i < 6; ++i) {
+    robot.joints[i].limit.lower = 0.2 - half[i];
+    robot.joints[i].limit.upper = 0.2 + half[i];
+  }
+  const SphericalWristSolver solver(robot);
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> angle(-kPi, kPi);
+  int limited = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Eigen::VectorXd q(6);
+    for (double& value : q) value = angle(random);
+    const Pose X_RH = hand_pose(robot, q);
+    double least = std::numeric_limits<double>::infinity();
+    for (const InverseSolution& branch : unlimited.solve(X_RH).solutions) {
+      double worst = 0.0;
+      for (Eigen::Index i = 0; i < 6; ++i) {
+        const double off = std::abs(std::remainder(branch.q[i] - 0.2, 2.0 * kPi));
+        worst = std::max(worst, off - half[i]);
+      }
+      least = std::min(least, worst);
+    }
+    const InverseResult result = solver.solve(X_RH);
+    EXPECT_EQ(result.solutions.empty(), least > 1e-9);
+    if (!result.solutions.empty()) continue;
+    ++limited;
+    EXPECT_NEAR(result.excess, least, 1e-9);
+  }
+  EXPECT_GT(limited, 200);
 }
 
 TEST(SphericalWrist, GivesAContinuousJointTheTurnNearestToTheReference) {

@@ -74,6 +74,7 @@ class Grasps:
         self._kinds = _kinds(options)  # not looked at yet
         self._denser = _denser_passes(options)
         self._turns: deque[_Turn] = deque()
+        self._blocked: _core.BlockedPoses | None = None
 
     def first(
         self,
@@ -105,6 +106,10 @@ class Grasps:
             yield from self._by_turns(self._approached, QUICK)
         if not self._report.counts.get("legal grasp poses") and elsewhere():
             return
+        yield from self.remaining()
+
+    def remaining(self) -> Iterator[Grasp]:
+        """What `first` left because of `elsewhere`, as if it had not been asked."""
         yield from self._by_turns(self._approached)
 
     def rest(self) -> Iterator[Grasp]:
@@ -142,8 +147,10 @@ class Grasps:
             turn, work = self._turns.popleft(), self._work
             with work.clock("legal grasps"):
                 if turn.search is None:
+                    if self._blocked is None:
+                        self._blocked = _core.BlockedPoses(work.scene)
                     turn.search = _core.LegalGraspSearch(
-                        work.scene, work.solver, turn.pair, turn.legality
+                        work.scene, work.solver, turn.pair, turn.legality, self._blocked
                     )
                     self._looked.searching(turn.pair, turn.search)
                 found = turn.search.next(PORTION)

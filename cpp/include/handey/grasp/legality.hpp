@@ -83,13 +83,19 @@ struct LegalGrasps {
 LegalGrasps find_legal_grasps(const GraspScene& scene, const SphericalWristSolver& solver,
                               const RankedPair& pair, const LegalityOptions& options = {});
 
+class BlockedPoses;
+
 /// The same in portions, for pairs that are to be looked at by turns.
 class LegalGraspSearch {
  public:
   /// @param solver  must outlive the search
+  /// @param blocked  of the same scene: candidates of the lattice (`spacing`) that it proves to be
+  /// illegal are not looked at further, and count where it says they fall; the legal ones are the
+  /// same with it and without
   /// @throws InvalidInput as find_legal_grasps
   LegalGraspSearch(const GraspScene& scene, const SphericalWristSolver& solver,
-                   const RankedPair& pair, const LegalityOptions& options = {});
+                   const RankedPair& pair, const LegalityOptions& options = {},
+                   std::shared_ptr<BlockedPoses> blocked = nullptr);
   ~LegalGraspSearch();
   LegalGraspSearch(LegalGraspSearch&&) noexcept;
   LegalGraspSearch& operator=(LegalGraspSearch&&) noexcept;

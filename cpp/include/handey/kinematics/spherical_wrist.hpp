@@ -70,6 +70,7 @@ class SphericalWristSolver {
   struct Position;  // joints 1 to 3 of one branch
   struct Search;    // what one solve collects
 
+  double past_limit_of(Eigen::Index i, double angle) const;
   void solve_shoulder(const Eigen::Vector3d& centre, Search& search) const;
   void solve_elbow(double q1, int branch, double margin, const Eigen::Vector3d& centre,
                    Search& search) const;

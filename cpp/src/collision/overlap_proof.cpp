@@ -1,11 +1,11 @@
 // The relaxation method on two convex solids.
-#include "overlap_proof.hpp"
+#include "handey/collision/overlap_proof.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace handey::cspace {
+namespace handey {
 namespace {
 
 using Eigen::Vector3d;
@@ -156,4 +156,4 @@ bool plainly_apart(const PlacedSolid& a, const PlacedSolid& b, double motion) {
          depth_in(a, centre_b).value < -(b.solid.radius + motion);
 }
 
-}  // namespace handey::cspace
+}  // namespace handey

@@ -10,7 +10,7 @@
 
 #include "handey/collision/solids.hpp"
 
-namespace handey::cspace {
+namespace handey {
 
 /// An axis at the centre of the cell, in R, and how far its joint goes to either side.
 struct AxisMotion {
@@ -47,4 +47,4 @@ bool overlaps_throughout(const PlacedSolid& a, const PlacedSolid& b, const Relat
 /// each is tried.
 bool plainly_apart(const PlacedSolid& a, const PlacedSolid& b, double motion);
 
-}  // namespace handey::cspace
+}  // namespace handey

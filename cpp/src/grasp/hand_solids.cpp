@@ -1,11 +1,11 @@
 // Solids of the hand against solids of what stands: the proof of cells of joints, with the hand's
 // turn in the plane as the one joint and its shift as a turn about an axis far away.
-#include "hand_cell.hpp"
+#include "handey/grasp/hand_solids.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace handey::cspace {
+namespace handey {
 namespace {
 
 constexpr double kFar = 1e3;        // of the axis that stands for a shift [m]
@@ -27,7 +27,7 @@ Pose finger_in_hand(const Robot& robot, const FingerJoint& finger, double width)
 
 }  // namespace
 
-double CellMotion::chord() const { return 2.0 * std::sin(0.5 * std::min(half_turn, 3.14159)); }
+double HandMotion::chord() const { return 2.0 * std::sin(0.5 * std::min(half_turn, 3.14159)); }
 
 HandSolids::HandSolids(CollisionChecker& checker, const Eigen::Vector3d& centre, double radius)
     : robot_(*checker.cell().robot), scene_(describe_solids(checker)) {
@@ -85,8 +85,8 @@ void HandSolids::set_width(double width) {
   }
 }
 
-std::optional<Blocked> HandSolids::blocking(const Pose& X_RH, const Eigen::Vector3d& turn_axis,
-                                            const CellMotion& motion) {
+std::optional<HandBlock> HandSolids::blocking(const Pose& X_RH, const Eigen::Vector3d& turn_axis,
+                                              const HandMotion& motion) {
   AxisMotion axes[2];
   axes[0].point = X_RH.translation();
   axes[0].direction = turn_axis;
@@ -100,7 +100,7 @@ std::optional<Blocked> HandSolids::blocking(const Pose& X_RH, const Eigen::Vecto
   relative.free_end = 2;
   const auto named = [&](std::size_t p, std::size_t t) {
     last_ = {p, t};
-    return Blocked{pieces_[p].mover, targets_[t].obstacle};
+    return HandBlock{pieces_[p].mover, targets_[t].obstacle};
   };
   const auto do_block = [&](std::size_t p, std::size_t t) {
     return blocks(pieces_[p], targets_[t], X_RH * pieces_[p].X_HM, relative, motion.shift);
@@ -117,7 +117,7 @@ std::optional<Blocked> HandSolids::blocking(const Pose& X_RH, const Eigen::Vecto
   return std::nullopt;
 }
 
-std::optional<Blocked> HandSolids::deep_in_arm(const Configuration& closed, double depth) {
+std::optional<HandBlock> HandSolids::deep_in_arm(const Configuration& closed, double depth) {
   body_poses(robot_, closed, X_RB_);
   AxisMotion axis;
   axis.direction = Eigen::Vector3d::UnitZ();
@@ -133,13 +133,13 @@ std::optional<Blocked> HandSolids::deep_in_arm(const Configuration& closed, doub
   };
   if (last_link_.first < links_.size() && last_link_.second < all_.size() &&
       do_block(last_link_.first, last_link_.second)) {
-    return Blocked{links_[last_link_.first].mover, all_[last_link_.second].obstacle};
+    return HandBlock{links_[last_link_.first].mover, all_[last_link_.second].obstacle};
   }
   for (std::size_t p = 0; p < links_.size(); ++p) {
     for (std::size_t t = 0; t < all_.size(); ++t) {
       if (!do_block(p, t)) continue;
       last_link_ = {p, t};
-      return Blocked{links_[p].mover, all_[t].obstacle};
+      return HandBlock{links_[p].mover, all_[t].obstacle};
     }
   }
   return std::nullopt;
@@ -185,4 +185,4 @@ double HandSolids::extent(const Robot& robot) {
   return farthest;
 }
 
-}  // namespace handey::cspace
+}  // namespace handey

@@ -1,23 +1,19 @@
-// One cell of hand poses on a feature pair: is every pose of it blocked, and by what?
+// Does the hand, closed on a part, hit something in all poses near one? Solids inside the hand
+// against solids inside what stands near the part: where they overlap deeper than any of the poses
+// lets them move, every pose is a collision, whatever the arm does. What is called blocked is; not
+// that the rest is free.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "handey/collision/overlap_proof.hpp"
 #include "handey/collision/solids.hpp"
-#include "handey/cspace/exhaustion.hpp"
-#include "overlap_proof.hpp"
 
-namespace handey::cspace {
+namespace handey {
 
-/// Hand poses within (half, half, half_turn) of the middle, in the grasp plane.
-struct HandCell {
-  PlanarPose middle;
-  int level = 0;  ///< half as wide as a cell of the level before
-};
-
-/// How far the poses of a cell leave its middle.
-struct CellMotion {
+/// How far hand poses leave the one in their middle, in the grasp plane.
+struct HandMotion {
   double shift = 0.0;      ///< of the grasp frame's origin [m]
   double half_turn = 0.0;  ///< about it [rad]
 
@@ -26,8 +22,8 @@ struct CellMotion {
   double of(double distance) const { return shift + chord() * distance; }
 };
 
-/// What blocks a cell: indices of names, see HandSolids.
-struct Blocked {
+/// What blocks hand poses: indices of names, see HandSolids.
+struct HandBlock {
   int mover = 0, other = 0;
 };
 
@@ -40,11 +36,12 @@ class HandSolids {
   HandSolids(CollisionChecker& checker, const Eigen::Vector3d& centre, double radius);
 
   void set_width(double width);
-  /// The pair that overlaps for all poses of the cell.
-  std::optional<Blocked> blocking(const Pose& X_RH, const Eigen::Vector3d& turn_axis,
-                                  const CellMotion& motion);
+  /// The pair that overlaps for all poses within the motion.
+  /// @param turn_axis  normal of the grasp plane, in R
+  std::optional<HandBlock> blocking(const Pose& X_RH, const Eigen::Vector3d& turn_axis,
+                                    const HandMotion& motion);
   /// A link of the arm that is so deep in an obstacle that a shift by `depth` would not free it.
-  std::optional<Blocked> deep_in_arm(const Configuration& closed, double depth);
+  std::optional<HandBlock> deep_in_arm(const Configuration& closed, double depth);
 
   const std::string& mover_name(int mover) const;
   const std::string& other_name(int other) const;
@@ -76,4 +73,4 @@ class HandSolids {
   std::vector<Pose> X_RB_;
 };
 
-}  // namespace handey::cspace
+}  // namespace handey
