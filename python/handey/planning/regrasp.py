@@ -27,7 +27,8 @@ from handey.regrasp.grasp_table import (
     joined,
     with_pairs,
 )
-from handey.regrasp.search import NO_SUPPORT, RegraspSearch, clears_ground, compatible
+from handey.regrasp.legal_grasps import clears_ground, compatible
+from handey.regrasp.search import NO_SUPPORT, RegraspSearch
 from handey.reporting.goal_report import GoalReport
 from handey.reporting.reasons import Reason
 
