@@ -11,24 +11,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
-
-import numpy as np
 
 from handey import _core
 from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput, Stopped
-from handey.motion.pick_and_place import (
-    Carry,
-    Motion,
-    Workspace,
-)
+from handey.motion.pick_and_place import Carry, Workspace
 from handey.motion.stage_clock import StageClock
 from handey.placement import TOUCHING, carried_by, examine_standing
-from handey.plan import Plan, Step
+from handey.plan import Plan
 from handey.planning.coverage import tell_coverage
 from handey.planning.explain import diagnose, explain
 from handey.planning.grasps import Grasps
@@ -38,10 +32,11 @@ from handey.planning.order import plan_order
 from handey.planning.plan_options import PlanOptions
 from handey.planning.proofs import Proofs, Proved
 from handey.planning.regrasp import Regrasp
+from handey.planning.timed_steps import TimedSteps
 from handey.planning.tries import Tries, planned
 from handey.reporting.goal_report import GoalReport
 from handey.reporting.reasons import Reason
-from handey.reporting.report import GrossMotion, Interrupted, LocalMotion, Report
+from handey.reporting.report import Interrupted, Report
 from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
@@ -53,16 +48,6 @@ class PlanResult:
 
     plan: Plan | None
     report: Report
-
-
-@dataclass
-class _Progress:
-    """The state of the world, and the clock of the plan [s], goal after goal."""
-
-    cell: _core.Cell
-    current: _core.Configuration
-    clock: float = 0.0
-    steps: list[Step] = field(default_factory=list)
 
 
 def plan(
@@ -95,11 +80,11 @@ def plan(
     report = Report(
         goals=[GoalReport(i, str(g)) for i, g in enumerate(cell_file.goals)], seed=options.seed
     )
-    state = _Progress(cell_file.cell, cell_file.cell.start)
+    steps = TimedSteps(cell_file.cell)
     interrupt = None
     try:
         reached = _core.run_within(
-            lambda: _reach_goals(cell_file, options, state, clock, report),
+            lambda: _reach_goals(cell_file, options, steps, clock, report),
             cancel=cancel,
             deadline=options.deadline,
             progress=None if progress is None else clock.tell,
@@ -132,10 +117,10 @@ def plan(
     result = Plan(
         cell=cell_file.name,
         joints=tuple(joint.name for joint in cell_file.cell.robot.joints),
-        steps=tuple(state.steps),
-        placements=_placements(state),
+        steps=tuple(steps.steps),
+        placements=steps.placements(),
     )
-    report.duration_s = round(state.clock, 6)
+    report.duration_s = round(steps.clock, 6)
     return PlanResult(replace(result, report=report.as_dict()), report)
 
 
@@ -172,11 +157,11 @@ def _advise(
 def _reach_goals(
     cell_file: CellFile,
     options: PlanOptions,
-    state: _Progress,
+    steps: TimedSteps,
     clock: StageClock,
     report: Report,
 ) -> bool:
-    """Plan all goals, and take the motions over into the state."""
+    """Plan all goals, and take the motions over as steps."""
     with clock("model"):
         model = _core.make_collision_model(cell_file.cell, cell_file.model)
         solver = _core.SphericalWristSolver(cell_file.cell.robot)
@@ -203,7 +188,8 @@ def _reach_goals(
     if moves is None and options.diagnosis:
         diagnose(report, options, clock)
     for move in moves or []:
-        _take_over(state, move.target, move.goal, move.carry, clock, report)
+        with clock("timing"):
+            steps.append(move, report)
     return moves is not None
 
 
@@ -278,51 +264,3 @@ def _unstable(work: Workspace) -> Reason | None:
     near = _core.touching_bodies(work.model, there, scene.part, TOUCHING)
     standing = examine_standing(scene.cell, scene.part, scene.X_WP_goal, near)
     return None if standing.stable else unstable(name, standing.reason)
-
-
-def _take_over(
-    progress: _Progress,
-    goal: PlaceAt,
-    index: int,
-    carry: Carry,
-    clock: StageClock,
-    report: Report,
-) -> None:
-    """Append the motions of a carry as timed steps; bring the world to where it then is."""
-    report.regrasps += carry.regrasps
-    with clock("timing"):
-        for motion in carry.motions:
-            step = len(progress.steps)
-            if motion.search is not None:
-                report.gross_motions.append(GrossMotion(step, index, motion.action, motion.search))
-            if motion.planner:
-                found = LocalMotion(step, index, motion.action, motion.planner)
-                report.local_motions.append(found)
-            timed = _core.time_path(progress.cell.robot, motion.path)
-            progress.steps.append(
-                Step(
-                    action=motion.action,
-                    goal=index,
-                    part=goal.part if motion.held else None,
-                    part_in_grasp_frame=_held_at(motion, carry),
-                    time=progress.clock + np.array(timed.time),
-                    positions=np.array([c.q for c in timed.configurations]),
-                    opening=np.array([c.opening for c in timed.configurations]),
-                )
-            )
-            progress.clock += timed.duration
-    assert carry.end is not None
-    progress.current = carry.end
-    progress.cell = progress.cell.with_part_at(progress.cell.part_index(goal.part), goal.X_WP)
-
-
-def _held_at(motion: Motion, carry: Carry) -> np.ndarray | None:
-    if not motion.held:
-        return None
-    return carry.X_HP if motion.X_HP is None else motion.X_HP
-
-
-def _placements(progress: _Progress) -> dict[str, np.ndarray]:
-    """Where each part that was moved stands in the end, be it where it stood at first."""
-    moved = {step.part for step in progress.steps}
-    return {part.name: part.X_WB for part in progress.cell.parts if part.name in moved}
