@@ -2,8 +2,7 @@
 
 Each move is planned with little effort at first, so that a search over many of them does not stop
 at the first hard one; then with all. A goal that leaves the pose open is tried at some of its
-places. A part is moved aside to a support, on the face that it stands on, with room for the jaws
-between it and where others are to go, where there is such a place.
+places.
 Not guaranteed: a move that exists is found.
 """
 
@@ -21,23 +20,23 @@ from handey.motion.pick_and_place import Carry, Workspace
 from handey.motion.stage_clock import StageClock
 from handey.planning.goal_places import places_for
 from handey.planning.in_the_way import carries, runs_into
+from handey.planning.places_aside import places_aside
 from handey.planning.plan_options import PlanOptions
 from handey.planning.proofs import Proofs, Proved
+from handey.planning.state import State
 from handey.reporting.goal_report import GoalReport
 from handey.reporting.reasons import Reason
 from handey.reporting.report import Report
-from handey.resting import PlacementOptions, Sought, placements, same_rest
+from handey.resting import Sought
 from handey.task import PlaceAt
 
-__all__ = ["Hands", "Move", "Mover", "State"]
+__all__ = ["Hands", "Mover"]
 
 # Choice: moves tried in one pass of the search, and more of them for each goal.
 MOST_TRIES, TRIES_PER_GOAL = 60, 4
 MOST_PLACES = (12, 6, 4)  # Choice: of an open goal tried with little effort, and with more
 MOST_PLACES_ASIDE = 8  # Choice: of a part moved aside, tried before another part is
 WAYS_ON = 2  # Choice: placements of one part from which the search goes on
-# Choice: between a part moved aside and where others go: first room for the jaws, then any [m].
-ASIDE = (0.04, 0.005)
 FAR_AWAY = 50.0  # under the cell, out of the way [m]
 
 
@@ -68,40 +67,6 @@ class Hands:
     clock: StageClock
     plan_goal: GoalPlanner
     proofs: Proofs | None = None
-
-
-@dataclass(frozen=True)
-class Move:
-    """One part carried somewhere: to its goal, or aside for the sake of another's."""
-
-    goal: int  # index in the task
-    target: PlaceAt
-    carry: Carry
-
-
-@dataclass(frozen=True)
-class State:
-    """Where the parts and the arm are after some moves.
-
-    Attributes:
-        reached: goals that are done with; of a part's last goal this is asked anew each time where
-            the order is free.
-    """
-
-    cell: _core.Cell
-    current: _core.Configuration
-    moves: tuple[Move, ...] = ()
-    reached: frozenset[int] = frozenset()
-
-    def after(self, index: int, target: PlaceAt, carry: Carry, is_own: bool) -> State:
-        """The state after a part was carried to a target for the sake of a goal."""
-        assert carry.end is not None
-        return State(
-            self.cell.with_part_at(self.cell.part_index(target.part), target.X_WP),
-            carry.end,
-            (*self.moves, Move(index, target, carry)),
-            self.reached | {index} if is_own else self.reached,
-        )
 
 
 @dataclass
@@ -215,7 +180,16 @@ class Mover:
         """
         name, sought = state.cell.parts[part].name, Sought()
         scratch, ways, tried = GoalReport(index, f"{name} aside"), 0, 0
-        stream = self._places_aside(state.cell, part, on, kept_free, sought)
+        stream = places_aside(
+            state.cell,
+            self.hands.model,
+            part,
+            on=on,
+            kept_free=kept_free,
+            solver=self.hands.solver,
+            seed=self.options.seed,
+            sought=sought,
+        )
         while tried < MOST_PLACES_ASIDE and ways < WAYS_ON and not self.is_spent():
             with self.hands.clock("placements"):
                 target = next(stream, None)
@@ -231,50 +205,6 @@ class Mover:
             why = why if on else "no fixture has 'support: true'"
             text = f"{name} could not be moved aside: {why}"
             self.report.goals[index].note(Reason("in_the_way", "found", text, bodies=(name,)))
-
-    def _places_aside(
-        self,
-        cell: _core.Cell,
-        part: int,
-        on: list[str],
-        kept_free: Sequence[PlaceAt],
-        sought: Sought,
-    ) -> Iterator[PlaceAt]:
-        """Places with room for the jaws between the part and where others go, then the rest."""
-        X_WP = cell.parts[part].X_WB
-        tight = []
-        for place in placements(
-            cell,
-            self.hands.model,
-            part,
-            on=on,
-            rests=same_rest(cell.parts[part], X_WP),
-            near=X_WP,
-            solver=self.hands.solver,
-            options=PlacementOptions(seed=self.options.seed),
-            sought=sought,
-        ):
-            gap = self._room(cell, part, place.X_WP, kept_free)
-            target = PlaceAt(cell.parts[part].name, place.X_WP)
-            if gap == ASIDE[0]:
-                yield target
-            elif gap == ASIDE[1]:
-                tight.append(target)
-        yield from tight
-
-    def _room(
-        self, cell: _core.Cell, part: int, X_WP: np.ndarray, kept_free: Sequence[PlaceAt]
-    ) -> float:
-        """Which of the distances a part has from where the others are to go; 0 for none."""
-        there = cell.with_part_at(part, X_WP)
-        gaps = list(ASIDE)
-        for goal in kept_free:
-            other = cell.part_index(goal.part)
-            later = there.with_part_at(other, goal.X_WP)
-            ref = _core.BodyRef(_core.BodyRef.Kind.Part, other)
-            while gaps and ref in _core.touching_bodies(self.hands.model, later, part, gaps[0]):
-                gaps.pop(0)
-        return gaps[0] if gaps else 0.0
 
     def _targets(
         self, cell: _core.Cell, index: int, kept_free: Sequence[PlaceAt], sought: Sought

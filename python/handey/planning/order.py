@@ -21,8 +21,9 @@ import numpy as np
 from handey.cell_file import CellFile
 from handey.planning.goal_places import is_met
 from handey.planning.in_the_way import Hindrance, hindrance, topmost
-from handey.planning.moves import Hands, Move, Mover, State
+from handey.planning.moves import Hands, Mover
 from handey.planning.plan_options import PlanOptions
+from handey.planning.state import Move, State
 from handey.reporting.goal_report import GoalReport
 from handey.reporting.reasons import Reason
 from handey.reporting.report import Report

@@ -9,7 +9,7 @@ import numpy as np
 from handey import _core
 from handey.motion.pick_and_place import Carry, Motion
 from handey.plan import Step
-from handey.planning.moves import Move
+from handey.planning.state import Move
 from handey.reporting.report import GrossMotion, LocalMotion, Report
 
 __all__ = ["TimedSteps"]
