@@ -7,6 +7,7 @@
 // geometry
 #include "handey/geometry/convex_pieces.hpp"
 #include "handey/geometry/mesh_file.hpp"
+#include "handey/geometry/point_tree.hpp"
 #include "handey/geometry/polygon.hpp"
 #include "handey/geometry/polyhedron.hpp"
 #include "handey/geometry/pose.hpp"

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 
 // The layout of Eigen's fixed-size types must be the one that libfcl was built with.
 static_assert(std::is_same_v<ccd_real_t, double>, "libccd must be built in double precision");
@@ -22,6 +23,15 @@ class SurfaceModel {
 };
 
 namespace {
+
+/// Fits boxes as FCL does, and looks whether it is to stop.
+class BoxFitter : public fcl::detail::BVFitter<fcl::OBBRSSd> {
+ public:
+  fcl::OBBRSSd fit(unsigned int* primitives, int count) override {
+    throw_if_stopped();
+    return fcl::detail::BVFitter<fcl::OBBRSSd>::fit(primitives, count);
+  }
+};
 
 /// FCL checks nothing: a wrong index is a wild read, a NaN a silent "no collision".
 void require_sound(const TriangleMesh& mesh) {
@@ -51,6 +61,7 @@ std::shared_ptr<const SurfaceModel> make_surface_model(const TriangleMesh& mesh)
                            static_cast<std::size_t>(t[2]));
   }
   std::shared_ptr<SurfaceModel> model = std::make_shared<SurfaceModel>();
+  model->hierarchy.bv_fitter = std::make_shared<BoxFitter>();
   const bool built = model->hierarchy.beginModel() == fcl::BVH_OK &&
                      model->hierarchy.addSubModel(mesh.vertices, triangles) == fcl::BVH_OK &&
                      model->hierarchy.endModel() == fcl::BVH_OK;

@@ -189,8 +189,7 @@ OrientedBox oriented_box(const TriangleMesh& mesh) {
   return best;
 }
 
-Polyhedral::Polyhedral(TriangleMesh triangles)
-    : mesh(std::move(triangles)), surface(make_surface_model(mesh)), tree(mesh) {
+Polyhedral::Polyhedral(TriangleMesh triangles) : mesh(std::move(triangles)), tree(mesh) {
   for (const TriangleMesh& component : connected_components(mesh)) {
     const std::size_t first = static_cast<std::size_t>(component.triangles.front()[0]);
     seeds.push_back(component.vertices[first]);
@@ -199,6 +198,10 @@ Polyhedral::Polyhedral(TriangleMesh triangles)
 
 const Polyhedral& Piece::polyhedral() const {
   return polyhedral_.get([this] { return Polyhedral(tessellate(shape, kSegments, true)); });
+}
+
+const SurfaceModel& Piece::surface() const {
+  return *surface_.get([this] { return make_surface_model(polyhedral().mesh); });
 }
 
 const SceneHull& Piece::wrapping() const {
@@ -266,12 +269,12 @@ double piece_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Po
   throw_if_stopped();
   if (a.convex) return mesh_to_convex(b, X_WB, a, X_WA, boxes, least, enough);
   if (b.convex) return mesh_to_convex(a, X_WA, b, X_WB, boxes, least, enough);
-  const Polyhedral& mesh_a = a.polyhedral();
-  const Polyhedral& mesh_b = b.polyhedral();
   // A little beyond `enough`, so that reaching the horizon means farther than enough.
   const double surfaces =
-      surface_distance(*mesh_a.surface, X_WA, *mesh_b.surface, X_WB, enough * (1.0 + 1e-9) + 1e-9);
+      surface_distance(a.surface(), X_WA, b.surface(), X_WB, enough * (1.0 + 1e-9) + 1e-9);
   if (surfaces <= least || boxes > 0.0) return surfaces;
+  const Polyhedral& mesh_a = a.polyhedral();
+  const Polyhedral& mesh_b = b.polyhedral();
   if (b.solid && has_piece_inside(mesh_a, X_WA, mesh_b, X_WB)) return 0.0;
   if (a.solid && has_piece_inside(mesh_b, X_WB, mesh_a, X_WA)) return 0.0;
   return surfaces;

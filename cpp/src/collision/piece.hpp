@@ -31,7 +31,6 @@ OrientedBox oriented_box(const TriangleMesh& mesh);
 struct Polyhedral {
   explicit Polyhedral(TriangleMesh triangles);
   TriangleMesh mesh;
-  std::shared_ptr<const SurfaceModel> surface;
   SurfaceTree tree;
   std::vector<Eigen::Vector3d> seeds;  ///< one vertex of each connected piece of the surface [m]
 };
@@ -64,6 +63,8 @@ class Piece {
   // All in the body frame, made when first asked for.
   /// The piece as triangles.
   const Polyhedral& polyhedral() const;
+  /// The same for distances between two of them.
+  const SurfaceModel& surface() const;
   /// A convex polyhedron that contains the piece.
   const SceneHull& wrapping() const;
   /// Convex polyhedra whose union contains a convex piece, or the surface of one that is not; by
@@ -72,6 +73,7 @@ class Piece {
 
  private:
   MadeOnce<Polyhedral> polyhedral_;
+  MadeOnce<std::shared_ptr<const SurfaceModel>> surface_;
   MadeOnce<SceneHull> wrapping_;
   MadeOnce<std::vector<SceneHull>> covering_;
 };

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "handey/stop.hpp"
+
 namespace handey::collision {
 namespace {
 
@@ -74,6 +76,7 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.tr
 }
 
 int SurfaceTree::build(int first, int count, std::vector<Vector3d>& centres) {
+  throw_if_stopped();
   Node node;
   node.first = first;
   Eigen::AlignedBox3d spread;
@@ -162,6 +165,7 @@ void SurfaceTree::nearest(int index, Query& query) const {
   const Node& node = nodes_[static_cast<std::size_t>(index)];
   if (query.nearest <= query.least) return;
   if (node.left < 0) {
+    throw_if_stopped();
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Eigen::Vector3i& t =
           mesh_.triangles[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];

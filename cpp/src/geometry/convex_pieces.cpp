@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <memory>
 
 extern "C" {
@@ -12,6 +13,8 @@ extern "C" {
 }
 
 #include "handey/errors.hpp"
+#include "handey/geometry/point_tree.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 namespace {
@@ -25,15 +28,20 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// One run of qhull; frees what it took also when it fails.
+// One run of qhull; frees what it took also when it fails. It can be stopped: qhull tells its
+// progress to a file, and where that is written it is told to add no more points.
 class Hull {
  public:
-  explicit Hull(std::vector<double>& coordinates) : silent_(std::fopen("/dev/null", "w")) {
-    qh_zero(&state_, silent_.get());
-    char command[] = "qhull";  // without Qt: triangles of one plane stay one face
+  explicit Hull(std::vector<double>& coordinates) {
+    const cookie_io_functions_t functions{nullptr, &Hull::look, nullptr, nullptr};
+    told_.reset(fopencookie(this, "w", functions));
+    if (told_) std::setvbuf(told_.get(), nullptr, _IONBF, 0);
+    qh_zero(&state_, told_.get());
+    // Without Qt: triangles of one plane stay one face. TF: progress after so many facets.
+    char command[] = "qhull TF500";
     const int count = static_cast<int>(coordinates.size() / 3);
     status_ =
-        qh_new_qhull(&state_, 3, count, coordinates.data(), False, command, nullptr, silent_.get());
+        qh_new_qhull(&state_, 3, count, coordinates.data(), False, command, nullptr, told_.get());
   }
   ~Hull() {
     qh_freeqhull(&state_, !qh_ALL);
@@ -44,13 +52,30 @@ class Hull {
   Hull(const Hull&) = delete;
   Hull& operator=(const Hull&) = delete;
 
-  int status() const { return status_; }
+  /// @throws Stopped, or whatever else a look threw while qhull ran
+  int status() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+    return status_;
+  }
   qhT* state() { return &state_; }
 
  private:
-  std::unique_ptr<std::FILE, CloseFile> silent_;
+  // No exception may pass through qhull.
+  static ssize_t look(void* hull, const char*, std::size_t size) noexcept {
+    Hull& self = *static_cast<Hull*>(hull);
+    try {
+      if (!self.thrown_) throw_if_stopped();
+    } catch (...) {
+      self.thrown_ = std::current_exception();
+      self.state_.STOPadd = 1;
+    }
+    return static_cast<ssize_t>(size);
+  }
+
+  std::unique_ptr<std::FILE, CloseFile> told_;
   qhT state_;
   int status_ = 0;
+  std::exception_ptr thrown_;
 };
 
 // The facet's corners as point numbers, counter-clockwise seen from outside.
@@ -107,6 +132,7 @@ ConvexPolyhedron convex_hull(const std::vector<Eigen::Vector3d>& points) {
   qhT* qh = hull.state();
   facetT* facet = nullptr;
   FORALLfacets {
+    throw_if_stopped();
     std::vector<int> face = ordered_corners(qh, facet, points);
     for (int& corner : face) {
       int& index = new_index[static_cast<std::size_t>(corner)];
@@ -144,7 +170,9 @@ bool is_convex(const TriangleMesh& mesh, double tolerance) {
   };
   double surface_area = 0.0;
   bool has_needles = false;
+  const PointTree corners(mesh.vertices);
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    throw_if_stopped();
     const Eigen::Vector3d a = corner(triangle, 0);
     const Eigen::Vector3d ab = corner(triangle, 1) - a;
     const Eigen::Vector3d ac = corner(triangle, 2) - a;
@@ -157,10 +185,7 @@ bool is_convex(const TriangleMesh& mesh, double tolerance) {
       continue;
     }
     const Eigen::Vector3d unit = normal.normalized();
-    const double level = unit.dot(a) + tolerance;
-    for (const Eigen::Vector3d& vertex : mesh.vertices) {
-      if (unit.dot(vertex) > level) return false;
-    }
+    if (corners.is_any_beyond(unit, unit.dot(a) + tolerance)) return false;
   }
   // Under all its planes, such a surface goes round its hull once.
   if (!has_needles && is_like_a_ball(mesh, surface)) return true;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "handey/stop.hpp"
 #include "mesh_edges.hpp"
 
 namespace handey {
@@ -128,6 +129,7 @@ TriangleMesh weld(const TriangleMesh& mesh, double tolerance) {
   TriangleMesh welded;
   std::vector<int> new_index(mesh.vertices.size(), -1);
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    throw_if_stopped();
     Eigen::Vector3i joined;
     for (int k = 0; k < 3; ++k) {
       int& number = new_index[static_cast<std::size_t>(triangle[k])];
@@ -166,6 +168,7 @@ bool orient_consistently(TriangleMesh& mesh) {
     double volume = 0.0;
     bool mixed = false;
     for (std::size_t at = 0; at < piece.size(); ++at) {
+      throw_if_stopped();
       const int t = piece[at];
       const int own = state[static_cast<std::size_t>(t)];
       mixed = mixed || own == 1;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "handey/stop.hpp"
+
 namespace handey {
 namespace {
 
@@ -18,7 +20,9 @@ std::vector<Edge> cancel_opposite(const std::vector<Edge>& edges) {
     const bool forward = edge[0] < edge[1];
     keyed.emplace_back(std::min(edge[0], edge[1]), std::max(edge[0], edge[1]), forward ? 1 : -1);
   }
+  throw_if_stopped();
   std::sort(keyed.begin(), keyed.end());
+  throw_if_stopped();
   std::vector<Edge> left;
   for (std::size_t i = 0; i < keyed.size();) {
     const auto [low, high, first] = keyed[i];
@@ -48,6 +52,7 @@ std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
       half_edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
     }
   }
+  throw_if_stopped();
   std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
     return std::tie(a.low, a.high, a.triangle, a.forward) <
            std::tie(b.low, b.high, b.triangle, b.forward);
@@ -68,6 +73,7 @@ std::vector<std::vector<int>> boundary_loops(const std::vector<std::array<int, 2
   std::vector<std::vector<int>> loops;
   for (std::size_t start = 0; start < left.size(); ++start) {
     if (used[start]) continue;
+    throw_if_stopped();
     std::vector<int> loop;
     std::size_t at = start;
     // As many edges leave each vertex as enter it, so the walk can only end where it began.

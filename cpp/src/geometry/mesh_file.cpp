@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "mesh_cleaning.hpp"
 #include "mesh_edges.hpp"
 #include "mesh_formats.hpp"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "handey/stop.hpp"
 #include "mesh_formats.hpp"
 
 namespace handey {
@@ -135,6 +136,7 @@ TriangleMesh read_binary_stl(const MeshSource& source) {
   mesh.vertices.reserve(3 * count);
   mesh.triangles.reserve(count);
   for (std::uint64_t t = 0; t < count; ++t) {
+    throw_if_stopped();
     const char* record = source.bytes.data() + kPreamble + t * kRecord + 12;
     const int first = static_cast<int>(mesh.vertices.size());
     for (int corner = 0; corner < 3; ++corner) {

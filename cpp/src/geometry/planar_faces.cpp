@@ -10,6 +10,7 @@
 
 #include "handey/errors.hpp"
 #include "handey/geometry/polyhedron.hpp"
+#include "handey/stop.hpp"
 #include "mesh_edges.hpp"
 
 namespace handey {
@@ -60,12 +61,14 @@ class FaceFinder {
                      [this](int a, int b) { return facet(a).area > facet(b).area; });
     std::vector<Cluster> clusters;
     for (const int seed : order) {
+      throw_if_stopped();
       if (facet(seed).area > 0.0 && !taken_[static_cast<std::size_t>(seed)]) {
         clusters.push_back(grow(seed));
       }
     }
     std::vector<PlanarFace> faces;
     for (const Cluster& cluster : merge_coplanar(std::move(clusters))) {
+      throw_if_stopped();
       PlanarFace face = make_face(cluster);
       if (face.area > 0.0 && face.area >= options_.least_area) faces.push_back(std::move(face));
     }
@@ -133,6 +136,7 @@ class FaceFinder {
     cluster.add(seed, facet(seed));
     taken_[static_cast<std::size_t>(seed)] = true;
     for (std::size_t at = 0; at < cluster.triangles.size(); ++at) {
+      throw_if_stopped();
       const Eigen::Vector3d normal = cluster.normal();
       const Eigen::Vector3d centre = cluster.centre();
       for (const int next : neighbours_[static_cast<std::size_t>(cluster.triangles[at])]) {
@@ -177,6 +181,7 @@ class FaceFinder {
     std::vector<Cluster> result;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
       if (merged[i]) continue;
+      throw_if_stopped();
       const Eigen::Vector3d centre = clusters[i].centre();
       Cluster sum = clusters[i];
       auto at =

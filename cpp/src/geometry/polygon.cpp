@@ -3,11 +3,14 @@
 #include "handey/geometry/polygon.hpp"
 
 #include <algorithm>
+#include <array>
 #include <clipper.hpp>
 #include <cmath>
 #include <string>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
+#include "mesh_edges.hpp"
 
 namespace handey {
 namespace {
@@ -23,6 +26,8 @@ constexpr double kMiterLimit =
 // Choice: vertices nearer than 1.5 units to the line of their neighbours are collinear but for
 // rounding.
 constexpr double kCleanDistance = 1.5;
+
+constexpr std::size_t kManyLoops = 500;  // Choice: of more, common sides are cancelled first
 
 Path to_path(const Polygon& polygon) {
   Path path;
@@ -91,6 +96,33 @@ void append_parts(const ClipperLib::PolyNode& node, std::vector<Region>& parts) 
   }
 }
 
+// Loops with the same winding number everywhere, without the sides at which neighbours meet.
+Paths without_common_sides(const Paths& paths) {
+  std::vector<ClipperLib::IntPoint> points;
+  for (const Path& path : paths) points.insert(points.end(), path.begin(), path.end());
+  const auto is_before = [](const ClipperLib::IntPoint& a, const ClipperLib::IntPoint& b) {
+    return a.X != b.X ? a.X < b.X : a.Y < b.Y;
+  };
+  std::sort(points.begin(), points.end(), is_before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  const auto number = [&](const ClipperLib::IntPoint& point) {
+    return static_cast<int>(std::lower_bound(points.begin(), points.end(), point, is_before) -
+                            points.begin());
+  };
+  std::vector<std::array<int, 2>> sides;
+  for (const Path& path : paths) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      sides.push_back({number(path[i]), number(path[(i + 1) % path.size()])});
+    }
+  }
+  Paths left;
+  for (const std::vector<int>& loop : boundary_loops(sides)) {
+    left.emplace_back();
+    for (const int point : loop) left.back().push_back(points[static_cast<std::size_t>(point)]);
+  }
+  return left;
+}
+
 }  // namespace
 
 double signed_area(const Polygon& polygon) {
@@ -112,6 +144,7 @@ double area(const Region& region) {
 }
 
 Region unite(const std::vector<Region>& regions) {
+  throw_if_stopped();
   Paths all;
   for (const Region& region : regions) {
     for (const Polygon& loop : region.loops) all.push_back(to_path(loop));
@@ -120,7 +153,11 @@ Region unite(const std::vector<Region>& regions) {
 }
 
 Region region_of_loops(const std::vector<Polygon>& loops) {
-  return combine(ClipperLib::ctUnion, to_paths(Region{loops}), {}, ClipperLib::pftPositive);
+  throw_if_stopped();
+  Paths paths = to_paths(Region{loops});
+  // Clipper takes longer than in proportion, and cannot be stopped.
+  if (paths.size() > kManyLoops) paths = without_common_sides(paths);
+  return combine(ClipperLib::ctUnion, paths, {}, ClipperLib::pftPositive);
 }
 
 Region intersect(const Region& a, const Region& b) {

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <numeric>
+#include <utility>
 
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "mesh_edges.hpp"
 
 namespace handey {
@@ -43,6 +44,7 @@ class Connection {
 };
 
 Connection connect(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges) {
+  throw_if_stopped();
   Connection connection(mesh.triangles.size());
   for_each_edge(half_edges, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin + 1; i < end; ++i) {
@@ -143,6 +145,7 @@ SurfaceReport inspect_surface(const TriangleMesh& mesh) {
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     if (connection.root(t) == t) ++report.components;
   }
+  throw_if_stopped();
   measure_extent(mesh, report);
   measure_volume(mesh, report);
   return report;
@@ -171,26 +174,34 @@ bool contains_point(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
 std::vector<TriangleMesh> connected_components(const TriangleMesh& mesh) {
   require_valid(mesh, "mesh");
   Connection connection = connect(mesh, sorted_half_edges(mesh));
-  std::map<int, std::size_t> piece_of_root;
-  std::vector<TriangleMesh> pieces;
-  std::vector<std::map<int, int>> new_index;
+  std::vector<int> piece_of_root(mesh.triangles.size(), -1);
+  std::vector<std::vector<std::size_t>> triangles;  // by piece
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const int root = connection.root(static_cast<int>(t));
-    const auto [found, is_new] = piece_of_root.emplace(root, pieces.size());
-    if (is_new) {
-      pieces.emplace_back();
-      new_index.emplace_back();
+    int& piece = piece_of_root[static_cast<std::size_t>(connection.root(static_cast<int>(t)))];
+    if (piece < 0) {
+      piece = static_cast<int>(triangles.size());
+      triangles.emplace_back();
     }
-    TriangleMesh& piece = pieces[found->second];
-    Eigen::Vector3i triangle;
-    for (int k = 0; k < 3; ++k) {
-      const int old = mesh.triangles[t][k];
-      const auto [index, first_use] =
-          new_index[found->second].emplace(old, static_cast<int>(piece.vertices.size()));
-      if (first_use) piece.vertices.push_back(mesh.vertices[static_cast<std::size_t>(old)]);
-      triangle[k] = index->second;
+    triangles[static_cast<std::size_t>(piece)].push_back(t);
+  }
+  std::vector<TriangleMesh> pieces(triangles.size());
+  // A vertex may be in several pieces: by vertex, the last one that it was met in, and its number
+  // there.
+  std::vector<std::pair<std::size_t, int>> last(mesh.vertices.size(), {pieces.size(), 0});
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    throw_if_stopped();
+    for (const std::size_t t : triangles[piece]) {
+      Eigen::Vector3i triangle;
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t old = static_cast<std::size_t>(mesh.triangles[t][k]);
+        if (last[old].first != piece) {
+          last[old] = {piece, static_cast<int>(pieces[piece].vertices.size())};
+          pieces[piece].vertices.push_back(mesh.vertices[old]);
+        }
+        triangle[k] = last[old].second;
+      }
+      pieces[piece].triangles.push_back(triangle);
     }
-    piece.triangles.push_back(triangle);
   }
   return pieces;
 }

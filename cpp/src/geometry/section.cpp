@@ -15,6 +15,7 @@
 
 #include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
+#include "handey/stop.hpp"
 #include "mesh_edges.hpp"
 
 namespace handey {
@@ -100,6 +101,7 @@ class MeshProjection {
   }
 
   Region of_solid(const std::vector<Eigen::Vector3i>& triangles) {
+    throw_if_stopped();
     for (const Eigen::Vector3i& triangle : triangles) {
       const Outline outline = clip(triangle);
       if (doubled_area(triangle) > 0.0) add_sides(outline.points, false);
@@ -109,6 +111,7 @@ class MeshProjection {
   }
 
   Region of_skin(const std::vector<Eigen::Vector3i>& triangles) {
+    throw_if_stopped();
     std::vector<Polygon> upright;
     for (const Eigen::Vector3i& triangle : triangles) {
       const Outline outline = clip(triangle);

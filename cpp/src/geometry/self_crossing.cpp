@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "handey/stop.hpp"
+
 namespace handey {
 namespace {
 
@@ -76,6 +78,7 @@ bool crosses_itself(const TriangleMesh& mesh) {
   const Crossings crossings(mesh, kStrict * size * size * size);
   long pairs = 0;
   for (std::size_t i = 0; i < facets.size(); ++i) {
+    throw_if_stopped();
     for (std::size_t j = i + 1; j < facets.size(); ++j) {
       if (facets[j].lower[axis] > facets[i].upper[axis]) break;
       if (++pairs > kMostPairs) return false;

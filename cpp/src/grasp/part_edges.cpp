@@ -12,6 +12,8 @@
 #include <utility>
 #include <variant>
 
+#include "handey/stop.hpp"
+
 namespace handey::grasp {
 namespace {
 
@@ -49,13 +51,17 @@ class EdgeFinder {
     rays_.resize(mesh_.vertices.size());
     const std::vector<Side> sides = sorted_sides();
     for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
+      throw_if_stopped();
       while (next < sides.size() && sides[next].ends() == sides[i].ends()) ++next;
       // One that runs from low to high comes after one that runs back.
       if (next - i == 2 && sides[i + 1].forward && !sides[i].forward) {
         add_piece(sides[i + 1], sides[i]);
       }
     }
-    for (auto& [faces, pieces] : pieces_) join(faces, std::move(pieces));
+    for (auto& [faces, pieces] : pieces_) {
+      throw_if_stopped();
+      join(faces, std::move(pieces));
+    }
     add_vertices();
   }
 
@@ -141,6 +147,7 @@ class EdgeFinder {
       }
     }
     for (std::size_t v = 0; v < rays_.size(); ++v) {
+      throw_if_stopped();
       if (rays_[v].size() < 3) continue;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const Eigen::Vector3d& ray : rays_[v]) sum += ray;

@@ -6,13 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
+#include "handey/geometry/point_tree.hpp"
+#include "handey/stop.hpp"
 
 namespace handey {
 namespace {
@@ -117,6 +118,7 @@ RestingPose stand(const TriangleMesh& surface, const Vector3d& centre, const Eig
     lowest = std::min(lowest, points.back().z());
     highest = std::max(highest, points.back().z());
   }
+  throw_if_stopped();
   std::vector<Polygon> loops;
   for (const Eigen::Vector3i& triangle : surface.triangles) {
     std::array<Vector3d, 3> corners;
@@ -130,6 +132,7 @@ RestingPose stand(const TriangleMesh& surface, const Vector3d& centre, const Eig
     if (signed_area(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
     loops.push_back(std::move(polygon));
   }
+  throw_if_stopped();
   RestingPose rest;
   rest.X_SP.linear() = turn;
   rest.X_SP.translation() = -(turn * centre) - lowest * Vector3d::UnitZ();
@@ -185,9 +188,20 @@ class Faces {
     return sum;
   }
 
+  std::vector<std::vector<std::size_t>> facets_by_corner() const {
+    std::vector<std::vector<std::size_t>> facets(hull_.vertices.size());
+    for (std::size_t facet = 0; facet < hull_.faces.size(); ++facet) {
+      for (const int index : hull_.faces[facet]) {
+        facets[static_cast<std::size_t>(index)].push_back(facet);
+      }
+    }
+    return facets;
+  }
+
   /// The largest facet gives the plane; all facets within it are the same face.
   void merge() {
     std::vector<double> areas;
+    throw_if_stopped();
     for (const std::vector<int>& facet : hull_.faces) areas.push_back(doubled_area(facet).norm());
     std::vector<std::size_t> order(hull_.faces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -196,20 +210,23 @@ class Faces {
       return std::llround(areas[a] * 1e12) > std::llround(areas[b] * 1e12);
     });
     face_of_.assign(hull_.faces.size(), -1);
+    const PointTree corners_of_all(hull_.vertices);
+    const std::vector<std::vector<std::size_t>> facets_at = facets_by_corner();
     for (const std::size_t largest : order) {
+      throw_if_stopped();
       if (face_of_[largest] >= 0 || !(areas[largest] > 0.0)) continue;
       Face face;
       face.normal = doubled_area(hull_.faces[largest]) / areas[largest];
-      for (const Vector3d& vertex : hull_.vertices) {
-        face.height = std::max(face.height, face.normal.dot(vertex));
-      }
+      face.height = std::max(face.height, corners_of_all.farthest(face.normal));
       const auto in_plane = [&](int index) {
         return face.normal.dot(corner(index)) > face.height - kFlat;
       };
-      for (std::size_t facet = 0; facet < hull_.faces.size(); ++facet) {
-        const std::vector<int>& corners = hull_.faces[facet];
-        if (face_of_[facet] < 0 && std::all_of(corners.begin(), corners.end(), in_plane)) {
-          face_of_[facet] = static_cast<int>(faces_.size());
+      for (const int near : corners_of_all.beyond(face.normal, face.height - kFlat)) {
+        for (const std::size_t facet : facets_at[static_cast<std::size_t>(near)]) {
+          const std::vector<int>& corners = hull_.faces[facet];
+          if (face_of_[facet] < 0 && std::all_of(corners.begin(), corners.end(), in_plane)) {
+            face_of_[facet] = static_cast<int>(faces_.size());
+          }
         }
       }
       face_of_[largest] = static_cast<int>(faces_.size());
@@ -220,6 +237,7 @@ class Faces {
   void measure() {
     std::vector<std::vector<Vector2d>> outlines(faces_.size());
     for (std::size_t f = 0; f < hull_.faces.size(); ++f) {
+      throw_if_stopped();
       if (face_of_[f] < 0) continue;
       const std::size_t index = static_cast<std::size_t>(face_of_[f]);
       Face& face = faces_[index];
@@ -233,6 +251,7 @@ class Faces {
       }
     }
     for (std::size_t i = 0; i < faces_.size(); ++i) {
+      throw_if_stopped();
       faces_[i].outline = convex_hull(outlines[i]);
       faces_[i].margin = margin_of(faces_[i].outline);
     }
@@ -240,18 +259,24 @@ class Faces {
 
   /// A face that does not hold the centre of mass falls over the edge that it is farthest beyond.
   void topple() {
-    std::map<std::pair<int, int>, int> facet_at;  // by directed edge
+    using Edge = std::pair<int, int>;
+    std::vector<std::pair<Edge, int>> facet_at;  // by directed edge
     for (std::size_t f = 0; f < hull_.faces.size(); ++f) {
       const std::vector<int>& facet = hull_.faces[f];
       for (std::size_t i = 0; i < facet.size(); ++i) {
-        facet_at[{facet[i], facet[(i + 1) % facet.size()]}] = static_cast<int>(f);
+        const Edge edge(facet[i], facet[(i + 1) % facet.size()]);
+        facet_at.emplace_back(edge, static_cast<int>(f));
       }
     }
+    throw_if_stopped();
+    std::sort(facet_at.begin(), facet_at.end());
     std::vector<double> farthest(faces_.size(), -std::numeric_limits<double>::infinity());
     for (const auto& [edge, f] : facet_at) {
-      const auto twin = facet_at.find({edge.second, edge.first});
+      throw_if_stopped();
+      const Edge back(edge.second, edge.first);
+      const auto twin = std::lower_bound(facet_at.begin(), facet_at.end(), std::make_pair(back, 0));
       const int own = face_of_[static_cast<std::size_t>(f)];
-      if (own < 0 || twin == facet_at.end()) continue;
+      if (own < 0 || twin == facet_at.end() || twin->first != back) continue;
       const int other = face_of_[static_cast<std::size_t>(twin->second)];
       Face& face = faces_[static_cast<std::size_t>(own)];
       // Falling lowers the centre of mass: so no face is come back to.
@@ -303,6 +328,7 @@ std::vector<Candidate> choose(const std::vector<Face>& faces, const RestingOptio
   });
   std::vector<Candidate> kept;
   for (const Candidate& candidate : all) {
+    throw_if_stopped();
     Candidate* nearest = nullptr;
     double greatest = std::cos(options.rolling_step);
     for (Candidate& other : kept) {

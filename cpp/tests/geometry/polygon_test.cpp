@@ -72,6 +72,24 @@ TEST(Polygon, LoopsThatOverlapUniteAndClockwiseOnesCancel) {
   EXPECT_TRUE(region_of_loops({reversed(rectangle(0, 0, 1, 1))}).empty());
 }
 
+// Above a certain number the sides at which neighbours meet are cancelled first.
+TEST(Polygon, ManyTilesAndAHoleBetweenThemAreOneRegion) {
+  std::vector<Polygon> tiles;
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 40; ++j) {
+      if (i == 20 && j == 20) continue;
+      tiles.push_back(rectangle(0.01 * i, 0.01 * j, 0.01 * (i + 1), 0.01 * (j + 1)));
+    }
+  }
+  const Region region = region_of_loops(tiles);
+  EXPECT_EQ(region.loops.size(), 2U);
+  EXPECT_NEAR(area(region), 0.16 - 1e-4, 1e-9);
+  tiles.push_back(rectangle(0.0, 0.0, 0.4, 0.4));  // over all of them
+  EXPECT_NEAR(area(region_of_loops(tiles)), 0.16, 1e-9);
+  tiles.push_back(reversed(rectangle(0.0, 0.0, 0.4, 0.4)));
+  EXPECT_NEAR(area(region_of_loops(tiles)), 0.16 - 1e-4, 1e-9);
+}
+
 TEST(Polygon, AGrownRegionContainsTheTrueOffset) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> angle(0.0, 6.2831853);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -17,15 +18,20 @@
 #include "../approach/puma_scene.hpp"
 #include "handey/approach/approach.hpp"
 #include "handey/approach/retreat.hpp"
+#include "handey/collision/all_hits.hpp"
 #include "handey/collision/scene.hpp"
 #include "handey/cspace/arm_table.hpp"
 #include "handey/cspace/separation.hpp"
 #include "handey/cspace/slice.hpp"
 #include "handey/errors.hpp"
+#include "handey/geometry/convex_pieces.hpp"
+#include "handey/grasp/features.hpp"
 #include "handey/grasp/legality.hpp"
 #include "handey/motion/gross.hpp"
 #include "handey/motion/sampling.hpp"
 #include "handey/motion/shortcut.hpp"
+#include "handey/world/resting.hpp"
+#include "handey/world/support_faces.hpp"
 
 namespace handey {
 namespace {
@@ -177,8 +183,66 @@ void print(const MotionResult& motion, Print& out) {
   out << static_cast<int>(motion.status) << motion.reason << motion.iterations << motion.path;
 }
 
+// A torus about the z axis, so finely meshed that each step of making it ready takes long.
+MeshShape fine_ring(int around, int across) {
+  constexpr double kTurn = 6.283185307179586;
+  TriangleMesh mesh;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double u = kTurn * i / around, v = kTurn * j / across;
+      const double out = 0.05 + 0.01 * std::cos(v);
+      mesh.vertices.emplace_back(out * std::cos(u), out * std::sin(u), 0.01 * std::sin(v));
+      const int next = (i + 1) % around, up = (j + 1) % across;
+      mesh.triangles.emplace_back(i * across + j, next * across + j, next * across + up);
+      mesh.triangles.emplace_back(i * across + j, next * across + up, i * across + up);
+    }
+  }
+  return MeshShape{std::make_shared<const TriangleMesh>(std::move(mesh)), true};
+}
+
+Body ring_at(const std::string& name, const Pose& X_WB) {
+  Body body = test::box(name, {0.1, 0.1, 0.1}, X_WB);
+  body.shapes.front().geometry = fine_ring(80, 40);
+  return body;
+}
+
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
+      {"Hull",
+       [](Bench&, Print& out) {
+         std::vector<Eigen::Vector3d> points;
+         for (const Eigen::Vector3d& point : fine_ring(80, 40).mesh->vertices) {
+           points.push_back(point.normalized());
+         }
+         const ConvexPolyhedron hull = convex_hull(points);
+         out << hull.vertices.size() << hull.faces.size() << is_convex(triangulate(hull));
+       },
+       2000},
+      {"Rests",
+       [](Bench&, Print& out) {
+         for (const RestingPose& rest : resting_poses(ring_at("ring", Pose::Identity()))) {
+           out << rest.width << rest.tip_angle;
+         }
+       },
+       2000},
+      {"Features",
+       [](Bench& b, Print& out) {
+         const Body ring = ring_at("ring", Pose::Identity());
+         const FeaturePairs found = find_feature_pairs(ring, b.cell.robot->gripper);
+         out << found.faces.size() << found.pairs.size() << support_faces(ring).size();
+       },
+       2000},
+      {"Meshes",
+       [](Bench& b, Print& out) {
+         Cell cell = b.cell;
+         cell.fixtures.push_back(ring_at("ring", test::at(0.5, 0.25, 0.2)));
+         cell.parts.push_back(ring_at("other", test::at(0.52, 0.25, 0.235)));
+         const std::shared_ptr<const CollisionModel> model = make_collision_model(cell);
+         out << find_overlaps(*model, cell).size();
+         CollisionChecker among_rings(model, cell);
+         out << find_all_hits(among_rings, b.start).size();
+       },
+       2000},
       {"CollisionModel",
        [](Bench& b, Print& out) {
          out << find_overlaps(*make_collision_model(b.cell), b.cell).size();
