@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "handey/errors.hpp"
 #include "handey/geometry/convex_pieces.hpp"
 #include "ranges.hpp"
+#include "scene_input.hpp"
 
 namespace handey {
 namespace {
@@ -75,14 +75,7 @@ struct BlockedPoses::Impl {
 };
 
 BlockedPoses::BlockedPoses(const GraspScene& scene) {
-  if (!scene.model) throw InvalidInput("E_MISSING", "scene.model", "is missing");
-  if (!scene.cell.robot) throw InvalidInput("E_MISSING", "scene.cell.robot", "is missing");
-  grasp::require_in_range(scene.part, 0, static_cast<double>(scene.cell.parts.size()) - 1,
-                          "scene.part");
-  if (scene.cell.held) {
-    throw InvalidInput("E_RANGE", "scene.cell.held", "holds a part, expected an empty hand");
-  }
-  require_rigid(scene.X_WP_goal, "scene.X_WP_goal");
+  grasp::require_valid_scene(scene);
   impl_ = std::make_unique<Impl>(scene);
 }
 BlockedPoses::~BlockedPoses() = default;

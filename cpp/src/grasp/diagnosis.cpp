@@ -16,6 +16,7 @@
 #include "handey/grasp/part_grasps.hpp"
 #include "handey/stop.hpp"
 #include "ranges.hpp"
+#include "scene_input.hpp"
 
 namespace handey {
 namespace {
@@ -210,14 +211,7 @@ class Counter {
 };
 
 void require_valid_input(const GraspScene& scene, const DiagnosisOptions& options) {
-  if (!scene.model) throw InvalidInput("E_MISSING", "scene.model", "is missing");
-  if (!scene.cell.robot) throw InvalidInput("E_MISSING", "scene.cell.robot", "is missing");
-  grasp::require_in_range(scene.part, 0, static_cast<double>(scene.cell.parts.size()) - 1,
-                          "scene.part");
-  if (scene.cell.held) {
-    throw InvalidInput("E_RANGE", "scene.cell.held", "holds a part, expected an empty hand");
-  }
-  require_rigid(scene.X_WP_goal, "scene.X_WP_goal");
+  grasp::require_valid_scene(scene);
   grasp::require_in_range(options.most_poses, 1, 1e6, "most_poses");
   grasp::require_in_range(options.most_pairs, 1, 1e6, "most_pairs");
   grasp::require_in_range(options.wider, 0.0, 10.0, "wider");

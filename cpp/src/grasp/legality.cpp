@@ -13,20 +13,14 @@
 #include "handey/stop.hpp"
 #include "pose_test.hpp"
 #include "ranges.hpp"
+#include "scene_input.hpp"
 
 namespace handey {
 namespace {
 
 void require_valid_input(const GraspScene& scene, const RankedPair& pair,
                          const LegalityOptions& options) {
-  if (!scene.model) throw InvalidInput("E_MISSING", "scene.model", "is missing");
-  if (!scene.cell.robot) throw InvalidInput("E_MISSING", "scene.cell.robot", "is missing");
-  grasp::require_in_range(scene.part, 0, static_cast<double>(scene.cell.parts.size()) - 1,
-                          "scene.part");
-  if (scene.cell.held) {
-    throw InvalidInput("E_RANGE", "scene.cell.held", "holds a part, expected an empty hand");
-  }
-  require_rigid(scene.X_WP_goal, "scene.X_WP_goal");
+  grasp::require_valid_scene(scene);
   require_rigid(pair.pair.X_PG, "pair.X_PG");
   grasp::require_in_range(pair.pair.width, 0.0, 10.0, "pair.width");
   grasp::require_in_range(options.directions, 1, 3600, "legality.directions");

@@ -9,31 +9,21 @@
 #include <random>
 #include <string>
 
-#include "../grasp/parts.hpp"
-#include "../kinematics/puma.hpp"
+#include "../grasp/puma_bench.hpp"
 #include "handey/errors.hpp"
 #include "handey/grasp/target.hpp"
 
 namespace handey {
 namespace {
 
+using testing::block_on_bench;
 using testing::box_body;
 using testing::puma;
 using testing::translation;
 
-Cell block_on_table() {
-  Cell cell;
-  cell.name = "bench";
-  cell.robot = puma();
-  cell.fixtures.push_back(box_body("table", {1.6, 1.4, 0.05}, translation(0.55, 0, -0.025)));
-  cell.parts.push_back(box_body("block", {0.04, 0.06, 0.05}, translation(0.50, 0.20, 0.025)));
-  cell.start = {puma()->home, 0.1};
-  return cell;
-}
-
 /// Four walls so far from the block's middle, so high, and a lid.
 Cell walled_in(double room, double height, bool lid) {
-  Cell cell = block_on_table();
+  Cell cell = block_on_bench();
   const double at = room + 0.01, z = 0.5 * height;
   cell.fixtures.push_back(
       box_body("left", {0.02, 2 * at + 0.02, height}, translation(0.50 - at, 0.20, z)));
@@ -83,7 +73,7 @@ int random_legal_poses(const Cell& cell, int count) {
 }
 
 TEST(Exhaustion, IsNotSaidOfAPartOnABareTable) {
-  const Exhaustion found = exhaust(block_on_table());
+  const Exhaustion found = exhaust(block_on_bench());
   EXPECT_FALSE(found.exhausted);
   EXPECT_EQ(found.reason, "a hand pose is legal");
   EXPECT_LT(found.cells_looked_at, 100u);
@@ -121,7 +111,7 @@ TEST(Exhaustion, AgreesWithRandomPosesForWallsOfAnyWidth) {
 }
 
 TEST(Exhaustion, IsProvedThroughoutForAPartThatIsFarAway) {
-  Cell cell = block_on_table();
+  Cell cell = block_on_bench();
   cell.parts[0].X_WB = translation(2.5, 0.0, 0.5);
   const Exhaustion found = exhaust(cell);
   EXPECT_TRUE(found.exhausted);
@@ -133,7 +123,7 @@ TEST(Exhaustion, IsProvedThroughoutForAPartThatIsFarAway) {
 
 TEST(Exhaustion, OfTwoPlacesAsksForAPoseThatIsLegalAtBoth) {
   // Walls of a lane at one place, across it at the other: each place has its grasps.
-  Cell cell = block_on_table();
+  Cell cell = block_on_bench();
   for (const double side : {-1.0, 1.0}) {
     const std::string name = side < 0 ? "_a" : "_b";
     cell.fixtures.push_back(
@@ -166,7 +156,7 @@ TEST(Exhaustion, IsNotSaidOfABall) {
 }
 
 TEST(Exhaustion, RefusesNoPlaceUnknownPartsAndBadOptions) {
-  const Cell cell = block_on_table();
+  const Cell cell = block_on_bench();
   const SphericalWristSolver solver(*puma());
   const auto model = make_collision_model(cell);
   const std::vector<Pose> place{cell.parts[0].X_WB};
