@@ -150,6 +150,7 @@ IMPORT_LATE = {
     "handey.cell_file",
     "handey.check.shapes",
     "handey.cli",
+    "handey.commands.check",
     "handey.commands.plan",
     "handey.commands.inspect",
     "handey.placement",

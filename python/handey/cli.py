@@ -17,15 +17,10 @@ import threading
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
+from handey.commands.check import check_command
+from handey.commands.ending import BAD_INPUT, INTERNAL, INTERRUPTED, OK
 from handey.commands.inspect import inspect_command
-from handey.commands.plan import (
-    BAD_INPUT,
-    INTERNAL,
-    INTERRUPTED,
-    OK,
-    check_command,
-    plan_command,
-)
+from handey.commands.plan import plan_command
 from handey.commands.slice import slice_command
 from handey.commands.terminal import complain
 from handey.commands.view import view_command

@@ -11,9 +11,10 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from handey.commands.plan import OK, keep_inputs
+from handey.commands.ending import OK
 from handey.commands.terminal import tell, warn
 from handey.errors import Fault, InvalidInput
+from handey.formats.output import keep_inputs, require_writable
 
 if TYPE_CHECKING:
     from handey import _core
@@ -30,8 +31,6 @@ def inspect_command(options: argparse.Namespace) -> int:
     """Tells what a part, a robot or a cell is."""
     file, part = _named(options.file, options.part)
     if options.output is not None:
-        from handey.formats.output import require_writable
-
         require_writable(options.output)
         keep_inputs([file, options.robot], Path(options.output))
     report = _report(options, file, part)

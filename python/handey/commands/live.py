@@ -13,8 +13,8 @@ import time
 from pathlib import Path
 
 from handey._core import CancelToken
+from handey.commands.ending import OK
 from handey.commands.looking import look, require_plan_or_report
-from handey.commands.plan import OK
 from handey.commands.terminal import complain, one_line
 from handey.errors import InvalidInput
 from handey.view import make_page

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from handey._core import CancelToken
-from handey.commands.plan import DeadlinePassedError, plan_and_check, within
+from handey.commands.ending import DeadlinePassedError, within
+from handey.commands.plan import plan_and_check
 from handey.commands.terminal import ProgressLine, complain
 from handey.errors import InvalidInput
 from handey.formats.strict_json import read_json

@@ -12,18 +12,18 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from handey.commands.plan import (
+from handey.commands.ending import (
     DEADLINE,
     NO_PLAN,
     OK,
     DeadlinePassedError,
     deadline_passed,
-    keep_inputs,
     within,
 )
 from handey.commands.summary import no_plan_lines, plan_summary
 from handey.commands.terminal import tell, warn
 from handey.errors import Fault, InvalidInput
+from handey.formats.output import keep_inputs, require_writable
 
 if TYPE_CHECKING:
     from handey.cell_file import CellFile
@@ -37,8 +37,6 @@ __all__ = ["slice_command"]
 
 def slice_command(options: argparse.Namespace) -> int:
     """Draws slices of the configuration space, with a path through them."""
-    from handey.formats.output import require_writable
-
     start = time.monotonic()
     output = Path(options.output or f"{Path(options.cell).stem}.slice.svg")
     require_writable(output)

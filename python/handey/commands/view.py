@@ -10,9 +10,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from handey.commands.plan import INTERRUPTED, OK, keep_inputs
+from handey.commands.ending import INTERRUPTED, OK
 from handey.commands.terminal import complain, warn
 from handey.errors import Fault, InvalidInput
+from handey.formats.output import keep_inputs, require_writable
 
 __all__ = ["view_command"]
 
@@ -25,7 +26,6 @@ def view_command(options: argparse.Namespace) -> int:
         _refuse(options.output is not None, "--output", "no file is written with --serve")
         return serve(options)
     _refuse(options.port is not None, "--port", "is used with --serve alone")
-    from handey.formats.output import require_writable
 
     output = Path(options.output or f"{Path(options.cell).stem}.html")
     require_writable(output)

@@ -12,12 +12,15 @@ import math
 import os
 import secrets
 import stat
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from handey.errors import Fault, InvalidInput
 
-__all__ = ["finite", "require_writable", "write_whole"]
+__all__ = ["finite", "keep_inputs", "require_writable", "write_whole"]
+
+INPUT_KINDS = (".yaml", ".yml", ".urdf", ".stl", ".obj", ".ply", ".npy", ".png")
 
 
 def require_writable(path: str | os.PathLike[str]) -> Path:
@@ -42,6 +45,20 @@ def require_writable(path: str | os.PathLike[str]) -> Path:
         reason = getattr(error, "strerror", None) or str(error)
         raise _fault(name, f"cannot be written: {reason}") from error
     return target
+
+
+def keep_inputs(inputs: Sequence[str | None], output: Path) -> None:
+    """The output must not replace what is read, or may be read by way of it."""
+    if output.suffix.lower() in INPUT_KINDS and output.exists():
+        message = (
+            f"exists, and ends with {output.suffix} as an input does; the output needs another name"
+        )
+        raise InvalidInput(Fault("E_OUTPUT", "", message, str(output)))
+    for name in inputs:
+        if name is not None and os.path.realpath(name) == os.path.realpath(output):
+            raise InvalidInput(
+                Fault("E_OUTPUT", "", "is read; the output needs another name", str(output))
+            )
 
 
 def write_whole(path: str | os.PathLike[str], text: str) -> None:
