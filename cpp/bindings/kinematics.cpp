@@ -92,17 +92,43 @@ void bind_robot_parts(py::module_& m) {
       .def_readonly("acceleration", &Gripper::acceleration, "Of one finger [m/s2].");
 }
 
-std::shared_ptr<Robot> with_jaws(const Robot& robot, const py::object& max_opening) {
-  const double opening = real_number(max_opening, "max_opening");
-  if (!(opening > robot.gripper.min_opening)) {
-    throw InvalidInput("E_RANGE", "max_opening",
-                       "expected more than the least opening of " +
-                           std::to_string(robot.gripper.min_opening) + " m, found " +
-                           std::to_string(opening));
+std::shared_ptr<Robot> with_jaws(const Robot& robot, const py::object& max_opening,
+                                 const py::object& min_opening) {
+  const double most = real_number(max_opening, "max_opening");
+  const double least =
+      min_opening.is_none() ? robot.gripper.min_opening : real_number(min_opening, "min_opening");
+  if (!(least >= 0.0)) {
+    throw InvalidInput("E_RANGE", "min_opening",
+                       "expected at least 0, found " + std::to_string(least));
   }
-  std::shared_ptr<Robot> wider = std::make_shared<Robot>(robot);
-  wider->gripper.max_opening = opening;
-  return wider;
+  if (!(most > least)) {
+    throw InvalidInput("E_RANGE", "max_opening",
+                       "expected more than the least opening of " + std::to_string(least) +
+                           " m, found " + std::to_string(most));
+  }
+  std::shared_ptr<Robot> other = std::make_shared<Robot>(robot);
+  other->gripper.min_opening = least;
+  other->gripper.max_opening = most;
+  return other;
+}
+
+std::shared_ptr<Robot> with_limit(const Robot& robot, int joint, const py::object& lower,
+                                  const py::object& upper) {
+  if (joint < 0 || joint >= static_cast<int>(robot.joints.size())) {
+    throw InvalidInput("E_RANGE", "joint",
+                       "expected 0 to " + std::to_string(robot.joints.size() - 1) + ", found " +
+                           std::to_string(joint));
+  }
+  const double low = real_number(lower, "lower"), high = real_number(upper, "upper");
+  if (!(low < high)) {
+    throw InvalidInput(
+        "E_LIMIT", "lower",
+        "expected less than upper, " + std::to_string(high) + " rad, found " + std::to_string(low));
+  }
+  std::shared_ptr<Robot> other = std::make_shared<Robot>(robot);
+  other->joints[static_cast<std::size_t>(joint)].limit.lower = low;
+  other->joints[static_cast<std::size_t>(joint)].limit.upper = high;
+  return other;
 }
 
 void bind_robot(py::module_& m) {
@@ -120,11 +146,18 @@ void bind_robot(py::module_& m) {
       .def_readonly("ignored_pairs", &Robot::ignored_pairs,
                     "Body indices never checked against each other, from the robot file.")
       .def(
-          "with_jaws", &with_jaws, py::arg("max_opening"),
-          R"(The same robot, whose jaws open farther or less far; whether its fingers can is not asked.
+          "with_jaws", &with_jaws, py::arg("max_opening"), py::arg("min_opening") = py::none(),
+          R"(The same robot, whose jaws open or close to other distances; whether its fingers can is not asked.
 
 Args:
-    max_opening: greatest distance between the pads [m].)")
+    max_opening: greatest distance between the pads [m].
+    min_opening: least distance between the pads [m]; None for that of this robot.)")
+      .def("with_limit", &with_limit, py::arg("joint"), py::arg("lower"), py::arg("upper"),
+           R"(The same robot with other limits of an arm joint.
+
+Args:
+    joint: its index, from the base.
+    lower, upper: of the joint [rad].)")
       .def("__repr__", [](const Robot& self) {
         return "<Robot '" + self.name + "' with " + std::to_string(self.joints.size()) + " joints>";
       });

@@ -861,12 +861,21 @@ class Robot:
     A robot as URDF and robot file describe it.
     """
     def __repr__(self) -> str: ...
-    def with_jaws(self, max_opening: typing.Any) -> Robot:
+    def with_jaws(self, max_opening: typing.Any, min_opening: typing.Any = None) -> Robot:
         """
-        The same robot, whose jaws open farther or less far; whether its fingers can is not asked.
+        The same robot, whose jaws open or close to other distances; whether its fingers can is not asked.
 
         Args:
             max_opening: greatest distance between the pads [m].
+            min_opening: least distance between the pads [m]; None for that of this robot.
+        """
+    def with_limit(self, joint: int, lower: typing.Any, upper: typing.Any) -> Robot:
+        """
+        The same robot with other limits of an arm joint.
+
+        Args:
+            joint: its index, from the base.
+            lower, upper: of the joint [rad].
         """
     @property
     def bodies(self) -> list[RobotBody]:

@@ -94,11 +94,23 @@ def yielding(here: Situation, names: list[str]) -> Iterator[Family]:
                 yield _once(Change("may move", text, (may, on)), order, name)
 
 
-def orders(here: Situation) -> Iterator[Family]:
-    """The order of the goals left open."""
-    if not here.cell_file.task.any_order and len(here.cell_file.goals) > 1:
-        edit = Edit(here.file, "order", "any")
-        yield _once(Change("order", "leave the order of the goals open", (edit,)))
+def orders(here: Situation, names: list[str]) -> Iterator[Family]:
+    """This goal before an earlier one that puts a part in its way; or the order left open.
+
+    Args:
+        here: the goal that failed.
+        names: of bodies in its way, the likeliest first.
+    """
+    task: list[Any] = here.content["task"]
+    if here.cell_file.task.any_order or len(task) < 2:
+        return
+    for order, index in enumerate(here.goals_before(names)):
+        kept = [goal for i, goal in enumerate(task) if i != here.index]
+        value = [*kept[:index], task[here.index], *kept[index:]]
+        words = f"reach goal {here.index} before goal {index}"
+        yield _once(Change("order", words, (Edit(here.file, "task", value),)), order)
+    edit = Edit(here.file, "order", "any")
+    yield _once(Change("order", "leave the order of the goals open", (edit,)), rank=2.0)
 
 
 def sooner(here: Situation, names: list[str]) -> Iterator[Family]:
@@ -142,7 +154,14 @@ def other_places(here: Situation) -> Iterator[Family]:
         if fixture.name == goal.fixture or here.is_measured(fixture.name):
             continue
         faces = _core.support_faces(fixture)
-        if not faces or (key == "inside" and all(face.enclosed.empty() for face in faces)):
+        if not faces:
+            continue
+        if key == "inside" and all(face.enclosed.empty() for face in faces):
+            if fixture.support:
+                out = Edit(here.file, f"{place}.inside", None)
+                on = Edit(here.file, f"{place}.on", fixture.name)
+                words = f"place {goal.part} on {fixture.name}, not inside {goal.fixture}"
+                yield _once(Change("other goal", words, (out, on)), rank=2.0 + 0.5 * order)
             continue
         edits = [Edit(here.file, f"{place}.{key}", fixture.name)]
         if isinstance(goal, PlaceOn) and goal.region is not None:

@@ -32,11 +32,14 @@ COSTS = {
     "order": (4.0, 0.0),
     "support": (4.0, 0.0),
     "may move": (5.0, 0.0),
+    "joint limit": (5.0, 20.0),
     "robot start": (5.0, 0.0),
     "region": (5.0, 20.0),
     "earlier goal": (8.0, 0.0),
     "other fixture": (10.0, 0.0),
+    "robot moved": (10.0, 50.0),
     "support added": (12.0, 0.0),
+    "other goal": (15.0, 0.0),
     "removed": (40.0, 0.0),
 }
 
@@ -56,6 +59,7 @@ class Change:
         robot: of the cell, where the edits change its files.
         regrasps: the part may have to be put down on the way.
         load: how many things are moved along.
+        awkward: what it costs besides: it leaves something in the air.
     """
 
     kind: str
@@ -65,12 +69,13 @@ class Change:
     robot: _core.Robot | None = None
     regrasps: bool = False
     load: int = 0
+    awkward: float = 0.0
 
     @property
     def cost(self) -> float:
         """On the scale of all changes."""
         least, slope = COSTS[self.kind]
-        return least + slope * abs(self.size) + MOVED_ALONG * self.load
+        return least + slope * abs(self.size) + MOVED_ALONG * self.load + self.awkward
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,10 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import chain
 
 from handey import _core
-from handey.advising import cell_changes, gripping, poses
+from handey.advising import cell_changes, gripping, poses, robot_changes
 from handey.advising.change import COSTS, Change, Family, written
 from handey.advising.situation import Blame, Situation
 from handey.advising.trials import Planner, Trials
@@ -29,6 +30,7 @@ __all__ = ["find_advice"]
 MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
+PATIENCE = 6  # Choice: trials in vain after a change that plans
 DEAR = 0.05  # Choice: as much less plausible is what costs one shift of 10 mm more
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
@@ -84,7 +86,9 @@ def _advice(change: Change, goal: int) -> Advice:
 def _told(edit: Edit) -> str:
     if edit.value is None:
         return "taken out"
-    return f"now {len(edit.value)} goals" if edit.place == "task" else written(edit.value)
+    if edit.place == "task":
+        return ", ".join(f"{goal.get('place')}" for goal in edit.value)
+    return written(edit.value)
 
 
 def _blaming(cause: Reason, body: str) -> Reason:
@@ -140,7 +144,10 @@ class _Search:
             for blame in self.bodies:
                 self._plans_without(blame.name, 0)
         failed: dict[tuple[int, int], list[float]] = {}
+        last = 0
         while waiting and self.trials.left > 0:
+            if self.found and self.trials.count - last > PATIENCE:
+                break
             it = min(waiting, key=self._rank)
             waiting.remove(it)
             change = it.family.make(it.size)
@@ -150,6 +157,7 @@ class _Search:
             if self.trials.plans(change, it.effort):
                 self.found.append(change)
                 self._shrink(it, failed.get(key, []))
+                last = self.trials.count
             else:
                 failed.setdefault(key, []).append(it.size)
         for name in dict.fromkeys(name for (name, _), plans in self.without.items() if plans):
@@ -209,7 +217,7 @@ class _Search:
     def _joint_missing(self, end: str) -> float | None:
         """How far the first joint turns too little for an end, if that is told [rad]."""
         first = self.here.cell.robot.joints[0].name
-        for reason in self.here.reasons:
+        for reason in self.here.reasons[:1]:
             if reason.kind == "joint_limit" and reason.joint == first and reason.end == end:
                 return reason.by
         return None
@@ -232,11 +240,13 @@ class _Search:
         parts = [name for name in blamed if here.is_part(name)]
         ends = list(here.ends)
         makers: dict[str, Callable[[], Iterator[Family]]] = {
-            "jaws": lambda: gripping.wider_jaws(here),
+            "jaws": lambda: chain(gripping.wider_jaws(here), gripping.closer_jaws(here)),
             "friction": lambda: gripping.frictions(here),
             "support": lambda: cell_changes.supports(here),
             "may move": lambda: cell_changes.yielding(here, parts[:MOST_BODIES]),
-            "order": lambda: cell_changes.orders(here),
+            "order": lambda: cell_changes.orders(here, blamed),
+            "joint limit": lambda: robot_changes.farther_joints(here),
+            "robot": lambda: robot_changes.mounts(here),
             "earlier goal": lambda: cell_changes.sooner(here, parts[:2]),
             "region": lambda: cell_changes.other_places(here),
             "robot start": lambda: cell_changes.robot_starts(here),
@@ -264,6 +274,7 @@ class _Search:
                 yield family, ranks.get(f"turn {end}", LATE)
 
 
+FIRST = -20.0  # Choice: rank of what needs nothing to be moved
 LATE = 12.0  # Choice: rank of what the reasons do not suggest
 
 # What a reason suggests, the likeliest first; {end} is its end, or both where it names none.
@@ -274,12 +285,13 @@ SUGGESTED = {
     "no_place": ("region", "may move", "moved", "earlier goal", "order"),
     "no_features": ("jaws",),
     "too_wide": ("jaws", "support"),
+    "too_thin": ("jaws",),
     "slips": ("friction", "jaws"),
     "obstructed": ("moved", "shift {end}", "turn {end}", "may move", "support"),
     "little_contact": ("shift {end}", "turn {end}", "moved"),
     "turns": ("friction", "support"),
-    "out_of_reach": ("shift {end}", "moved", "turn {end}"),
-    "joint_limit": ("turn {end}", "shift {end}", "support", "moved"),
+    "out_of_reach": ("shift {end}", "robot", "turn {end}", "moved"),
+    "joint_limit": ("turn {end}", "joint limit", "shift {end}", "support", "moved"),
     "collision": ("moved", "shift {end}", "turn {end}", "may move", "support"),
     "approach": ("moved", "shift origin", "turn origin", "may move"),
     "departure": ("moved", "shift origin", "turn origin", "may move"),
@@ -305,6 +317,9 @@ def _ranks(here: Situation) -> dict[str, float]:
                 name = wanted.format(end=each)
                 rank = 1.5 * place + 3.0 * order
                 ranks[name] = min(ranks.get(name, LATE), rank)
+    named = [name for reason in here.reasons[:1] for name in reason.bodies[:2]]
+    if here.goals_before(named):
+        ranks["order"] = FIRST
     return ranks
 
 

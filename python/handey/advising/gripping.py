@@ -1,4 +1,4 @@
-"""Changes of how the part is held: jaws that open wider, pads that slip less.
+"""Changes of how the part is held: jaws that open wider or close more, pads that slip less.
 
 Jaws: the robot file's opening and, where a finger could not go so far, its limit in the URDF,
 whose place is an XPath: "joint[@name='left_finger_joint']/limit/@upper".
@@ -19,7 +19,7 @@ from handey.advising.situation import Situation
 from handey.reporting.advice import Edit
 from handey.robot_file import read_robot
 
-__all__ = ["frictions", "wider_jaws"]
+__all__ = ["closer_jaws", "frictions", "wider_jaws"]
 
 ROOM = 0.017  # Choice: as much as the hand likes to come in with, on both sides [m]
 MOST_WIDER = 0.06  # Choice: more would be another gripper [m]
@@ -57,6 +57,26 @@ def wider_jaws(here: Situation) -> Iterator[Family]:
         short.insert(0, cause.by)
     sizes = [max(JAW_STEP, float(JAW_STEP * np.ceil(size / JAW_STEP - 1e-6))) for size in short]
     yield Family("jaws", make, tuple(dict.fromkeys(sizes))[:4], step=JAW_STEP)
+
+
+def closer_jaws(here: Situation) -> Iterator[Family]:
+    """Jaws that close to as little as a feature pair is wide that is too thin now."""
+    robot, file = here.cell.robot, here.cell_file.entry.robot.file
+    short = [r.by for r in here.reasons if r.kind == "too_thin" and r.by is not None]
+    if not short:
+        return
+    least, greatest = read_robot(file).gripper.opening
+
+    def make(size: float) -> Change | None:
+        opening = round(max(least - size, 0.0), 4)
+        if opening >= least:
+            return None
+        words = f"let the jaws close by {1e3 * size:.1f} mm more, to {1e3 * opening:.1f} mm"
+        edit = Edit(os.fspath(file), "gripper.opening", [opening, greatest])
+        return Change("jaws", words, (edit,), size, robot=robot.with_jaws(greatest, opening))
+
+    first = float(JAW_STEP * np.ceil(min(short) / JAW_STEP - 1e-6))
+    yield Family("jaws", make, tuple(dict.fromkeys((first, least))), step=JAW_STEP)
 
 
 def _widths(here: Situation) -> list[float]:

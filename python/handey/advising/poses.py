@@ -23,7 +23,9 @@ __all__ = ["moved_bodies", "removed", "shifts", "swings", "turns"]
 MOVES = (0.06, 0.02, 0.3)
 LOADED = 6.0  # Choice: as much less plausible is it to move what carries something
 HAND, LEAST_GUESS = 0.1, 0.05  # Choice: room for the hand; less is not moved at first [m]
-SHIFTS = (0.05, 0.02, 0.12, 0.25)
+SHIFTS = (0.12, 0.05, 0.25, 0.02)  # what succeeds is made smaller; what fails takes longer
+HANGS, HANGS_RANK = 15.0, 3.0  # Choice: as much dearer and less plausible is it to lift something
+TOUCHES = 0.002  # of what stands on another body [m]
 BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
 TURNS = tuple(np.radians((30.0, 90.0, 60.0, 180.0)))
 STEP, TURN_STEP = 0.005, float(np.radians(5.0))
@@ -49,13 +51,17 @@ def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
         return
     # A part that is lifted would stand on nothing.
     axes = [it for it in _away(here, blame) if not (is_part and it[0] == "+z")]
+
+    def lifts(axis: str) -> bool:
+        return axis == "+z" and _stands(here, name)
+
     for order, (axis, clear) in enumerate(axes):
         guess = STEP * round(min(max(clear + HAND, LEAST_GUESS), MOVES[-1]) / STEP)
         yield Family(
             "part moved" if is_part else "fixture moved",
             _mover(here, name, axis),
             tuple(dict.fromkeys((round(guess, 4), *MOVES))),
-            rank=0.7 * order + (LOADED if load else 0.0),
+            rank=0.7 * order + (LOADED if load else 0.0) + (HANGS_RANK if lifts(axis) else 0.0),
             step=STEP,
             body="" if load else name,
         )
@@ -72,6 +78,7 @@ def _mover(here: Situation, name: str, axis: str) -> Callable[[float], Change]:
         elif isinstance(here.cell_file.goals[index], PlaceAt):
             places.append(("task", index))
             also.append(f"the goal of {part}")
+    awkward = HANGS if axis == "+z" and _stands(here, name) else 0.0
     load = f" with {' and '.join(dict.fromkeys(also))} on it" if also else ""
 
     def make(size: float) -> Change:
@@ -79,9 +86,21 @@ def _mover(here: Situation, name: str, axis: str) -> Callable[[float], Change]:
         edits = [_shifted(here, place, by) for place in places]
         words = f"move {name}{load} by {1e3 * size:.0f} mm along {axis}"
         kind = "part moved" if is_part else "fixture moved"
-        return Change(kind, words, tuple(edits), size, load=len(edits) - 1)
+        return Change(kind, words, tuple(edits), size, load=len(edits) - 1, awkward=awkward)
 
     return make
+
+
+def _stands(here: Situation, name: str) -> bool:
+    """Does a body stand on another, so that it would hang in the air if it were lifted?"""
+    low, high = here.boxes[name]
+    return any(
+        abs(low[2] - other_high[2]) < TOUCHES
+        and (low[:2] < other_high[:2]).all()
+        and (high[:2] > other_low[:2]).all()
+        for other, (other_low, other_high) in here.boxes.items()
+        if other != name
+    )
 
 
 def _pose(here: Situation, place: tuple[str, Any]) -> tuple[str, dict[str, Any]]:
@@ -129,7 +148,8 @@ def removed(here: Situation, name: str) -> Change | None:
         return None
     if name not in here.content.get(kind, {}):
         return None
-    return Change("removed", f"take {name} out", (Edit(here.file, f"{kind}.{name}", None),))
+    words = f"take {name} out" + (" or measure it anew" if kind == "depth_maps" else "")
+    return Change("removed", words, (Edit(here.file, f"{kind}.{name}", None),))
 
 
 def shifts(here: Situation, end: str, away: list[str], least: float | None) -> Iterator[Family]:

@@ -182,6 +182,13 @@ class Situation:
         found = [Blame(name, end, w) for (name, end), w in weights.items() if name in known]
         return sorted(found, key=lambda blame: -blame.weight)
 
+    def goals_before(self, names: list[str]) -> list[int]:
+        """Earlier goals, in a given order, that move bodies of these names; of each the last."""
+        if self.cell_file.task.any_order:
+            return []
+        last = {goal.part: i for i, goal in enumerate(self.cell_file.goals[: self.index])}
+        return [last[name] for name in names if name in last and name != self.goal.part]
+
     @property
     def wants_regrasp(self) -> bool:
         """Would it help to put the part down on the way?

@@ -29,8 +29,8 @@ from handey.task import PlaceAt
 
 __all__ = ["Planner", "Trials"]
 
-LONGEST = 0.25  # Choice: of one trial [s]
-# Choice: of a trial in which the part may be put down on the way, or others are moved too [s]
+LONGEST = 0.25  # Choice: of one trial, in shares of `advice_seconds`
+# Choice: of a trial in which the part may be put down on the way, or others are moved too
 LONG = 1.0
 MORE_MOVES = ("may move", "earlier goal", "order")
 
@@ -108,7 +108,7 @@ class Trials:
         longest = LONG if regrasps or change.kind in MORE_MOVES else LONGEST
         options = replace(
             little(self.options, effort, regrasps),
-            deadline=max(1e-3, min(longest, self.left)),
+            deadline=max(1e-3, min(longest * self.options.advice_seconds, self.left)),
         )
         self.count += 1
         return self.planner(cell, options).plan is not None
