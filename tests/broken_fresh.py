@@ -103,20 +103,21 @@ PIT = [
 ]
 
 
-@broken(Truth(("joint_limit",), "destination", joints=("joint6",), by=(0.2, 0.06)))
-def joint_6_limited(folder: Path, is_broken: bool) -> Cell:
-    """Joint 6 turns 0.2 rad less than it must to come down about the bar in a pit."""
-    limits = {"joint6": (-1.55, 0.6)} if is_broken else {}
-    parts = {"bar": on_table([0.04, 0.12, 0.05], (0.4, 0.2))}
-    at = (0.55, -0.25)
-    fixtures = {"pit": shapes(*PIT, at=at)}
-    goal = place("bar", [*at, 0.025])
-    return cell(folder, fixtures, parts, [goal], table=BARE, limits=limits)
+@broken(Truth(("obstructed", "collision"), "origin", bodies=tuple(f"crate_{i}" for i in range(4))))
+def crates_round_the_part(folder: Path, is_broken: bool) -> Cell:
+    """Four crates, which may not be moved, stand 5 mm from the sides of the part, and higher."""
+    size, gap = [0.05, 0.07, 0.05], 0.005 if is_broken else 0.06
+    at = np.array([0.48, 0.28])
+    parts = {"block": on_table(size, (0.48, 0.28))}
+    for i, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
+        away = [x * (size[0] / 2 + gap + 0.035), y * (size[1] / 2 + gap + 0.035)]
+        parts[f"crate_{i}"] = on_table([0.07, 0.07, 0.09], tuple((at + away).tolist()))
+    return cell(folder, {}, parts, [place("block", [0.45, -0.25, 0.025])])
 
 
-@broken(Truth(("joint_limit",), "destination", joints=("joint2",), by=(0.15, 0.06)))
+@broken(Truth(("joint_limit",), "destination", joints=("joint2",), by=(0.07, 0.06)))
 def joint_2_limited(folder: Path, is_broken: bool) -> Cell:
-    """Joint 2 turns 0.15 rad less than it must to come down about the bar in a far pit."""
+    """Joint 2 turns 0.07 rad less than it must to come down about the bar in a far pit."""
     limits = {"joint2": (-0.1, 3.2)} if is_broken else {}
     parts = {"bar": on_table([0.04, 0.12, 0.05], (0.42, 0.2))}
     at = (0.66, -0.2)
@@ -124,14 +125,14 @@ def joint_2_limited(folder: Path, is_broken: bool) -> Cell:
     return cell(folder, fixtures, parts, [place("bar", [*at, 0.025])], limits=limits)
 
 
-@broken(Truth(("joint_limit",), "destination", joints=("joint_5",)))
-def small_arm_with_a_stiff_wrist(folder: Path, is_broken: bool) -> Cell:
-    """The small arm's joint 5 turns too little to point straight down into a box at the goal."""
-    limits = {"joint_5": (-0.6, 0.6)} if is_broken else {}
+@broken(Truth(("joint_limit",), joints=("joint_2",)))
+def small_arm_does_not_lean(folder: Path, is_broken: bool) -> Cell:
+    """The small arm's joint 2 turns too little to come down to the table at either end."""
+    limits = {"joint_2": (-1.9, 0.3)} if is_broken else {}
     walls = [box([0.01, 0.2, 0.12], [side * 0.075, 0, 0.06]) for side in (-1, 1)]
     walls += [box([0.14, 0.01, 0.12], [0, side * 0.095, 0.06]) for side in (-1, 1)]
-    at = (0.35, -0.2)
-    parts = {"block": on_table([0.03, 0.06, 0.04], (0.35, 0.2))}
+    at = (0.46, -0.2)
+    parts = {"block": on_table([0.03, 0.06, 0.04], (0.3, 0.15))}
     fixtures = {"box": shapes(*walls, at=at)}
     goal = place("block", [*at, 0.02])
     return cell(folder, fixtures, parts, [goal], opening=0.08, limits=limits, arm="irb120")

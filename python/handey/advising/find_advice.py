@@ -158,6 +158,8 @@ class _Search:
                 self.found.append(change)
                 self._shrink(it, failed.get(key, []))
                 last = self.trials.count
+                if change.kind == "order":  # nothing need be moved
+                    break
             else:
                 failed.setdefault(key, []).append(it.size)
         for name in dict.fromkeys(name for (name, _), plans in self.without.items() if plans):
@@ -228,8 +230,10 @@ class _Search:
             for wave, size in enumerate(family.sizes):
                 least, slope = COSTS[family.kind]
                 dear = DEAR * (least + slope * abs(size))
-                for effort in (0, 1):
-                    total = rank + family.rank + family.wave * wave + HARDER * effort + dear
+                is_order = family.kind == "order"
+                for effort in (2,) if is_order else (0, 1):
+                    harder = 0.0 if is_order else HARDER * effort
+                    total = rank + family.rank + family.wave * wave + harder + dear
                     yield _Try(total, family, size, effort)
 
     def _families(self) -> Iterator[tuple[Family, float]]:

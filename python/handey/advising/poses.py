@@ -23,7 +23,7 @@ __all__ = ["moved_bodies", "removed", "shifts", "swings", "turns"]
 MOVES = (0.06, 0.02, 0.3)
 LOADED = 6.0  # Choice: as much less plausible is it to move what carries something
 HAND, LEAST_GUESS = 0.1, 0.05  # Choice: room for the hand; less is not moved at first [m]
-SHIFTS = (0.12, 0.05, 0.25, 0.02)  # what succeeds is made smaller; what fails takes longer
+SHIFTS = (0.12, 0.25, 0.05, 0.02)  # what succeeds is made smaller; what fails takes longer
 HANGS, HANGS_RANK = 15.0, 3.0  # Choice: as much dearer and less plausible is it to lift something
 TOUCHES = 0.002  # of what stands on another body [m]
 BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
@@ -165,7 +165,7 @@ def shifts(here: Situation, end: str, away: list[str], least: float | None) -> I
         return
     place, kind, what = _of(here, end)
     sizes: tuple[float, ...] = SHIFTS
-    gap, wave = (0.7, 4.0) if least is None else (2.0, 0.5)
+    gap, wave = (0.7, 2.5) if least is None else (2.0, 0.5)
     if least is not None:
         first = STEP * np.ceil((least + 0.5 * STEP) / STEP)
         sizes = tuple(round(float(first) + more, 4) for more in BEYOND)

@@ -32,7 +32,8 @@ __all__ = ["Planner", "Trials"]
 LONGEST = 0.25  # Choice: of one trial, in shares of `advice_seconds`
 # Choice: of a trial in which the part may be put down on the way, or others are moved too
 LONG = 1.0
-MORE_MOVES = ("may move", "earlier goal", "order")
+HALF = 0.5  # Choice: of a trial of another order, which is tried with all effort
+MORE_MOVES = ("may move", "earlier goal")
 
 
 MOVING = ("part moved", "part shifted", "part turned", "fixture moved")
@@ -51,9 +52,11 @@ def little(options: PlanOptions, effort: int, regrasps: bool) -> PlanOptions:
 
     Args:
         options: of the plan that failed.
-        effort: 0: one pass over the grasps; 1: one more, of more grasps.
+        effort: 0: one pass over the grasps; 1: one more, of more grasps; 2: all but the proofs.
         regrasps: the part may be put down on the way.
     """
+    if effort > 1:
+        return replace(options, advice=False, diagnosis=False, prove=False, thorough=False)
     most = min(options.regrasp.most_regrasps, 2) if regrasps else 0
     regrasp = replace(
         options.regrasp,
@@ -106,6 +109,7 @@ class Trials:
             return False
         regrasps = change.regrasps or self.here.is_turned_over
         longest = LONG if regrasps or change.kind in MORE_MOVES else LONGEST
+        longest = HALF if effort > 1 else longest
         options = replace(
             little(self.options, effort, regrasps),
             deadline=max(1e-3, min(longest * self.options.advice_seconds, self.left)),
