@@ -8,7 +8,7 @@ import numpy as np
 
 import handey
 from handey import _core
-from handey.motion.pick_and_place import DirectOptions
+from handey.motion.carry import DirectOptions
 
 CELLS = Path(__file__).resolve().parent.parent / "models" / "cells"
 TWO_DOORS = CELLS / "two_doors.yaml"

@@ -9,8 +9,8 @@ import pytest
 
 import handey
 from handey import _core
+from handey.motion.carry import DirectOptions
 from handey.motion.lift import Lift, WaysOut, lift
-from handey.motion.pick_and_place import DirectOptions
 from handey.motion.way_out import WayOutOptions, way_out
 
 ROBOT = Path(__file__).resolve().parent.parent / "models" / "robots" / "puma560" / "robot.yaml"

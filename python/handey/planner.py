@@ -19,7 +19,7 @@ from handey.advising.find_advice import find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput, Stopped
-from handey.motion.pick_and_place import Carry, Workspace
+from handey.motion.carry import Carry, Workspace
 from handey.motion.stage_clock import StageClock
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.plan import Plan

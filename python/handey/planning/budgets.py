@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from handey import _core
-from handey.motion.pick_and_place import DirectOptions
+from handey.motion.carry import DirectOptions
 from handey.motion.way_out import WayOutOptions
 from handey.planning.plan_options import PlanOptions
 

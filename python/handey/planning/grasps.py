@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from handey import _core
-from handey.motion.pick_and_place import Workspace
+from handey.motion.carry import Workspace
 from handey.planning.plan_options import PlanOptions
 from handey.reporting.funnel import Funnel
 from handey.reporting.goal_report import GoalReport

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from handey import _core
-from handey.motion.pick_and_place import Carry
+from handey.motion.carry import Carry
 from handey.placement import TOUCHING, carried_by, examine_standing
 from handey.reporting.reasons import Reason
 from handey.task import Goal, PlaceAt

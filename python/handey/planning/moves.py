@@ -16,7 +16,7 @@ import numpy as np
 
 from handey import _core
 from handey.cell_file import CellFile
-from handey.motion.pick_and_place import Carry, Workspace
+from handey.motion.carry import Carry, Workspace
 from handey.motion.stage_clock import StageClock
 from handey.planning.goal_places import places_for
 from handey.planning.in_the_way import carries, runs_into

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from handey import _core
 from handey.errors import Fault, InvalidInput
-from handey.motion.pick_and_place import DirectOptions
+from handey.motion.carry import DirectOptions
 from handey.regrasp.search import RegraspOptions
 
 __all__ = ["PlanOptions"]

@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from handey import _core
-from handey.motion.pick_and_place import Carry, Workspace
+from handey.motion.carry import Carry, Workspace
 from handey.planning.budgets import with_budget
 from handey.planning.plan_options import PlanOptions
 from handey.regrasp.grasp_table import (

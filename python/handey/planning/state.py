@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from handey import _core
-from handey.motion.pick_and_place import Carry
+from handey.motion.carry import Carry
 from handey.task import PlaceAt
 
 __all__ = ["Move", "State"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
-from handey.motion.pick_and_place import Carry, Motion
+from handey.motion.carry import Carry, Motion
 from handey.plan import Step
 from handey.planning.state import Move
 from handey.reporting.report import GrossMotion, LocalMotion, Report

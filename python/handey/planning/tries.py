@@ -16,17 +16,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
+from handey.motion.carry import Carry, DirectOptions, Workspace
 from handey.motion.gross_motion import Journey
-from handey.motion.pick_and_place import (
-    Carry,
-    DirectOptions,
-    Reach,
-    Workspace,
-    carry_through,
-    find_approach,
-    find_reach,
-    find_transit,
-)
+from handey.motion.pick_and_place import carry_through, find_transit
+from handey.motion.reach import Reach, find_approach, find_reach
 from handey.planning.budgets import by_slides, with_budget
 from handey.planning.grasps import Grasp, describe
 from handey.planning.plan_options import PlanOptions

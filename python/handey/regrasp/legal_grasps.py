@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from handey import _core
-from handey.motion.pick_and_place import Workspace
+from handey.motion.carry import Workspace
 from handey.regrasp.grasp_table import GraspTable
 
 __all__ = ["clears_ground", "compatible"]

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handey import _core
-from handey.motion.pick_and_place import Carry, DirectOptions, Workspace
+from handey.motion.carry import Carry, DirectOptions, Workspace
 from handey.regrasp.graph import Graph, Place
 from handey.regrasp.grasp_table import GraspTable
 from handey.regrasp.legal_grasps import clears_ground, compatible

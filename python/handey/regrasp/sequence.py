@@ -12,15 +12,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from handey import _core
-from handey.motion.pick_and_place import (
-    Carry,
-    DirectOptions,
-    Motion,
-    Reach,
-    Workspace,
-    carry_through,
-    find_reach,
-)
+from handey.motion.carry import Carry, DirectOptions, Motion, Workspace
+from handey.motion.pick_and_place import carry_through
+from handey.motion.reach import Reach, find_reach
 from handey.regrasp.graph import ORIGIN, Graph, Hop
 from handey.regrasp.grasp_table import GraspTable
 from handey.reporting.goal_report import Attempt

@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import zip_longest
 
 from handey import _core
-from handey.motion.pick_and_place import Carry, Workspace
+from handey.motion.carry import Carry, Workspace
 from handey.reporting.reasons import STAGES, Reason, Stage, Tried, merged
 from handey.reporting.wording import Names, of_carry, of_fallen, of_obstructed, of_rejected
 

@@ -13,7 +13,7 @@ from handey import _core
 from handey.reporting.reasons import KINDS, Reason
 
 if TYPE_CHECKING:
-    from handey.motion.pick_and_place import Carry
+    from handey.motion.carry import Carry
 
 __all__ = [
     "ENDS",
