@@ -221,14 +221,17 @@ double CollisionChecker::Impl::distance_along(const PiecePair& pair,
 
 double CollisionChecker::Impl::rough_distance(const PiecePair& pair) const {
   const collision::Piece& own = piece(pair.mover, pair.piece);
-  const Vector3d at = X_RM[static_cast<std::size_t>(pair.mover)] * own.box.X_BO.translation();
+  const Pose X_RP = X_RM[static_cast<std::size_t>(pair.mover)] * own.box.X_BO;
   if (pair.other < 0) {
     const ObstaclePiece& obstacle = obstacle_pieces[static_cast<std::size_t>(pair.other_piece)];
-    return collision::ball_to_box(at, own.radius, obstacle.X_RO, obstacle.piece->box.half);
+    const Vector3d& half = obstacle.piece->box.half;
+    return std::max(collision::ball_to_box(X_RP.translation(), own.radius, obstacle.X_RO, half),
+                    collision::box_to_box(X_RP, own.box.half, obstacle.X_RO, half));
   }
   const collision::Piece& other = piece(pair.other, pair.other_piece);
-  const Vector3d there = X_RM[static_cast<std::size_t>(pair.other)] * other.box.X_BO.translation();
-  return (at - there).norm() - own.radius - other.radius;
+  const Pose X_RQ = X_RM[static_cast<std::size_t>(pair.other)] * other.box.X_BO;
+  return std::max((X_RP.translation() - X_RQ.translation()).norm() - own.radius - other.radius,
+                  collision::box_to_box(X_RP, own.box.half, X_RQ, other.box.half));
 }
 
 Hit CollisionChecker::Impl::hit(const PiecePair& pair, double distance) const {

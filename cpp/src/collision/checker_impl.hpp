@@ -92,9 +92,9 @@ struct CollisionChecker::Impl {
                 .geometry->pieces[static_cast<std::size_t>(index)];
   }
 
-  /// Calls visit(pair) for every pair of pieces whose balls and boxes are not farther apart than
-  /// reach(pair); stops when visit is true. reach is also asked for whole movers: their pieces are
-  /// then -1.
+  /// Calls visit(pair) for every pair of pieces whose balls and boxes are not seen to be farther
+  /// apart than reach(pair); stops when visit is true. reach is also asked for whole movers: their
+  /// pieces are then -1.
   template <class Reach, class Visit>
   bool visit_near(const Reach& reach, const Visit& visit) const;
 };
@@ -116,7 +116,11 @@ bool CollisionChecker::Impl::visit_near(const Reach& reach, const Visit& visit) 
         const collision::Piece& own = *mover.geometry->pieces[p];
         const Eigen::Vector3d at = X * own.box.X_BO.translation();
         const PiecePair pair{m, static_cast<int>(p), -1, o};
-        if (collision::ball_to_box(at, own.radius, obstacle.X_RO, half) > reach(pair)) continue;
+        const double far = reach(pair);
+        if (collision::ball_to_box(at, own.radius, obstacle.X_RO, half) > far) continue;
+        if (collision::box_to_box(X * own.box.X_BO, own.box.half, obstacle.X_RO, half) > far) {
+          continue;
+        }
         if (visit(pair)) return true;
       }
       return false;
@@ -158,7 +162,12 @@ bool CollisionChecker::Impl::visit_near(const Reach& reach, const Visit& visit) 
         const collision::Piece& other = *two.pieces[r];
         const double balls = (at - X_RM[b] * other.box.X_BO.translation()).norm() -
                              one.pieces[p]->radius - other.radius;
-        if (balls > reach(candidate)) continue;
+        const double far = reach(candidate);
+        if (balls > far) continue;
+        const Pose X_RP = X_RM[a] * one.pieces[p]->box.X_BO, X_RQ = X_RM[b] * other.box.X_BO;
+        if (collision::box_to_box(X_RP, one.pieces[p]->box.half, X_RQ, other.box.half) > far) {
+          continue;
+        }
         if (visit(candidate)) return true;
       }
     }

@@ -4,6 +4,7 @@
 // convex, cylinders and spheres count as 32-sided polyhedra that contain them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -93,6 +94,22 @@ inline double ball_to_box(const Eigen::Vector3d& centre, double radius, const Po
                           const Eigen::Vector3d& half) {
   const Eigen::Vector3d local = X_WO.linear().transpose() * (centre - X_WO.translation());
   return (local.cwiseAbs() - half).cwiseMax(0.0).norm() - radius;
+}
+
+/// A lower bound of the distance of two boxes, by the directions of their sides; 0 or less where
+/// none of these lies between them [m].
+inline double box_to_box(const Pose& X_WA, const Eigen::Vector3d& half_a, const Pose& X_WB,
+                         const Eigen::Vector3d& half_b) {
+  const Eigen::Matrix3d R_AB = X_WA.linear().transpose() * X_WB.linear();
+  const Eigen::Matrix3d lengths = R_AB.cwiseAbs();
+  const Eigen::Vector3d offset =
+      X_WA.linear().transpose() * (X_WB.translation() - X_WA.translation());
+  const Eigen::Vector3d beyond_a = offset.cwiseAbs() - half_a - lengths * half_b;
+  const Eigen::Vector3d beyond_b =
+      (R_AB.transpose() * offset).cwiseAbs() - half_b - lengths.transpose() * half_a;
+  const double most = std::max(beyond_a.maxCoeff(), beyond_b.maxCoeff());
+  if (most <= 0.0) return most;
+  return std::max(beyond_a.cwiseMax(0.0).norm(), beyond_b.cwiseMax(0.0).norm());
 }
 
 }  // namespace handey::collision

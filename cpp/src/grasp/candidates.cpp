@@ -99,21 +99,48 @@ std::vector<Place> places_of(const RankedPair& pair, const Gripper& gripper,
   return places;
 }
 
-// Is a finger, from its tip back over the pad's length, beside something that stands in its layer?
-bool is_blocked(const RankedPair& pair, const PlanarPose& pose, const FingerExtent& finger,
-                const Gripper& gripper) {
-  if (pair.blocked.empty()) return false;
-  Gripper footprint = gripper;
-  const double back = std::max(finger.back, -1.5 * gripper.pad_length);
-  footprint.pad_width = 2.0 * finger.half_width;
-  footprint.pad_length = finger.tip - back;
-  PlanarPose middle = pose;
-  middle.x += 0.5 * (finger.tip + back) * std::cos(pose.theta);
-  middle.y += 0.5 * (finger.tip + back) * std::sin(pose.theta);
-  return pad_contact_area(pair.blocked, middle, footprint) > 1e-9;
+}  // namespace
+
+FingerRoom::FingerRoom(const RankedPair& pair, const Robot& robot) {
+  const FingerExtent finger = finger_extent(robot);
+  const double back = std::max(finger.back, -1.5 * robot.gripper.pad_length);
+  footprint_ = robot.gripper;
+  footprint_.pad_width = 2.0 * finger.half_width;
+  footprint_.pad_length = finger.tip - back;
+  forward_ = 0.5 * (finger.tip + back);
+  const std::vector<Polygon>& loops = pair.blocked.loops;
+  const bool has_holes = std::any_of(loops.begin(), loops.end(),
+                                     [](const Polygon& loop) { return signed_area(loop) < 0.0; });
+  if (has_holes) {
+    add(pair.blocked);
+  } else {
+    for (const Polygon& loop : loops) add(Region{{loop}});
+  }
 }
 
-}  // namespace
+void FingerRoom::add(Region region) {
+  Eigen::AlignedBox2d box;
+  for (const Polygon& loop : region.loops) {
+    for (const Eigen::Vector2d& point : loop) box.extend(point);
+  }
+  blocks_.push_back({std::move(region), box.center(), 0.5 * box.diagonal().norm()});
+}
+
+bool FingerRoom::is_blocked(const PlanarPose& pose) const {
+  const Eigen::Vector2d along(std::cos(pose.theta), std::sin(pose.theta));
+  const PlanarPose middle{pose.x + forward_ * along.x(), pose.y + forward_ * along.y(), pose.theta};
+  const Eigen::Vector2d half(0.5 * footprint_.pad_length, 0.5 * footprint_.pad_width);
+  double area = 0.0;
+  for (const Block& block : blocks_) {
+    const Eigen::Vector2d offset = block.centre - Eigen::Vector2d(middle.x, middle.y);
+    const double across = along.x() * offset.y() - along.y() * offset.x();
+    if (std::abs(along.dot(offset)) > half.x() + block.radius) continue;
+    if (std::abs(across) > half.y() + block.radius) continue;
+    area += pad_contact_area(block.region, middle, footprint_);
+    if (area > 1e-9) return true;
+  }
+  return false;
+}
 
 ContactDemand contact_demand(const RankedPair& pair, const Gripper& gripper,
                              const LegalityOptions& options) {
@@ -167,7 +194,7 @@ CandidateMaker::CandidateMaker(const RankedPair& pair, const Robot& robot,
       down_in_G_(down_in_G),
       demand_(demand),
       hold_(hold),
-      finger_(finger_extent(robot)),
+      room_(pair, robot),
       directions_(approach_directions(pair, options.directions)) {
   for (const double theta : directions_) along_edge_.push_back(is_along_edge(pair, theta) ? 1 : 0);
   lattice_ = lattice_over(pair, gripper_, options.spacing);
@@ -225,7 +252,7 @@ bool CandidateMaker::add(const Candidate& drawn_back, bool is_first, CandidateLi
                                    candidate.along_edge, down_in_G_, demand_);
   // Choice: a pose whose fingers seem blocked is kept (the blocked region errs on the large
   // side) but comes after all the others.
-  if (is_blocked(pair_, candidate.pose, finger_, gripper_)) candidate.promise -= 1.0;
+  if (room_.is_blocked(candidate.pose)) candidate.promise -= 1.0;
   list.candidates.push_back(candidate);
   return true;
 }

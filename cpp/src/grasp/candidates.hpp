@@ -49,6 +49,25 @@ struct Place {
   int column = 0, row = 0;  ///< of the lattice, if it is none
 };
 
+/// Is a finger, from its tip back over the pad's length, beside something that stands in its layer?
+class FingerRoom {
+ public:
+  FingerRoom(const RankedPair& pair, const Robot& robot);
+  bool is_blocked(const PlanarPose& pose) const;
+
+ private:
+  struct Block {
+    Region region;
+    Eigen::Vector2d centre;
+    double radius;  ///< of a circle round it [m]
+  };
+  void add(Region region);
+
+  Gripper footprint_;          ///< its pad is what a finger covers
+  double forward_ = 0.0;       ///< its middle, from that of the pad [m]
+  std::vector<Block> blocks_;  ///< one by one where there are no holes
+};
+
 /// Makes candidates slot by slot: a slot is a place for the pads and a direction of the hand.
 class CandidateMaker {
  public:
@@ -70,7 +89,7 @@ class CandidateMaker {
   const Eigen::Vector2d& down_in_G_;
   const ContactDemand& demand_;
   const Hold& hold_;
-  FingerExtent finger_;
+  FingerRoom room_;
   std::vector<double> directions_;
   std::vector<char> along_edge_;  ///< per direction
   std::vector<int> turns_;        ///< per direction, its index in the lattice

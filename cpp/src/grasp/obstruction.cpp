@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <variant>
 
 #include "bounds.hpp"
@@ -95,6 +96,22 @@ bool is_convex_body(const Body& body) {
 }
 
 }  // namespace
+
+void append(Region&& loops, Region& to) {
+  to.loops.insert(to.loops.end(), std::make_move_iterator(loops.loops.begin()),
+                  std::make_move_iterator(loops.loops.end()));
+}
+
+Region loops_near(const Region& region, const Region& other) {
+  const Eigen::AlignedBox2d box = box_of(other);
+  Region near;
+  for (const Polygon& loop : region.loops) {
+    Eigen::AlignedBox2d own;
+    for (const Eigen::Vector2d& point : loop) own.extend(point);
+    if (own.intersects(box)) near.loops.push_back(loop);
+  }
+  return near;
+}
 
 FingerExtent finger_extent(const Robot& robot) {
   const Gripper& gripper = robot.gripper;
@@ -197,7 +214,7 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
                             double reach) {
   const std::vector<Eigen::AlignedBox3d>& boxes = boxes_of(body);
   const Eigen::AlignedBox2d around = box_of(pair.overlap);
-  std::vector<Region> sides;  // two small unions take less time than a large one
+  Region blocking;
   for (const bool side_a : {true, false}) {
     const Pose X_GS = side_frame(pair, side_a);
     const Pose X_SB = (pair.X_PG * X_GS).inverse() * X_PB;
@@ -207,7 +224,6 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
     window.extend(Eigen::Vector2d(around.min().x(), y_sense * around.min().y()));
     window.extend(Eigen::Vector2d(around.max().x(), y_sense * around.max().y()));
     const double lower = -clearance_, upper = layer_ + clearance_;
-    std::vector<Region> found;
     const auto is_beyond = [&](const Eigen::AlignedBox3d& box) {
       if (box.max().z() < lower || box.min().z() > upper) return true;
       const Eigen::AlignedBox2d seen(box.min().head<2>(), box.max().head<2>());
@@ -219,12 +235,10 @@ Region Obstruction::of_body(const FeaturePair& pair, const Body& body, const Pos
       if (is_beyond(moved_box(boxes[i], X_SB)) || is_beyond(bounding_box(shape, X_SB))) continue;
       throw_if_stopped();
       const Region region = slab_projection(shape, X_SB, lower, upper);
-      if (!region.empty()) found.push_back(grown(map_region(region, X_GS), clearance_));
+      if (!region.empty()) append(grown(map_region(region, X_GS), clearance_), blocking);
     }
-    if (!found.empty()) sides.push_back(unite(found));
   }
-  if (sides.size() == 2) return unite(sides);
-  return sides.empty() ? Region{} : std::move(sides.front());
+  return blocking;
 }
 
 }  // namespace handey::grasp

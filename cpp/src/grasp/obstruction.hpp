@@ -21,6 +21,12 @@ struct FingerExtent {
 };
 FingerExtent finger_extent(const Robot& robot);
 
+/// Adds the loops of one region to another.
+void append(Region&& loops, Region& to);
+/// The loops of a region whose boxes meet that of the other: what lies elsewhere takes nothing off
+/// the other.
+Region loops_near(const Region& region, const Region& other);
+
 /// The part of each body that blocks the fingers beside one pair, and the part's own protrusions.
 class Obstruction {
  public:
@@ -29,7 +35,8 @@ class Obstruction {
 
   /// What of the part stands out beside the faces of the pair, in (x, y) of G; not grown.
   Region own(const FeaturePair& pair);
-  /// What of the body blocks the layers of the pair, grown by the clearance, in (x, y) of G.
+  /// What of the body blocks the layers of the pair, grown by the clearance, in (x, y) of G. Its
+  /// loops overlap where its shapes do: they are not united, which would take most of the time.
   /// @param reach  bodies farther from the overlap than this are not looked at [m]
   Region of_body(const FeaturePair& pair, const Body& body, const Pose& X_PB, double reach);
 

@@ -51,18 +51,16 @@ class Ranker {
     RankedPair ranked;
     ranked.pair = pair;
     ranked.centre_of_mass = (pair.X_PG.inverse() * p_centre_).head<2>();
-    Region blocked = obstruction_.own(pair);
-    if (covers(ranked, blocked)) ranked.obstructing.push_back("the part itself");
-    blocked = united({std::move(blocked), obstacles(ranked, false)});
-    ranked.unobstructed = subtract(pair.overlap, blocked);
+    ranked.blocked = obstruction_.own(pair);
+    if (covers(ranked, ranked.blocked)) ranked.obstructing.push_back("the part itself");
+    add_obstacles(ranked, false);
+    ranked.unobstructed = free_of(pair.overlap, ranked.blocked);
     ranked.share_at_origin = area(ranked.unobstructed) / pair.area;
-    if (options_.use_destination) {
-      blocked = united({std::move(blocked), obstacles(ranked, true)});
-      ranked.unobstructed = subtract(pair.overlap, blocked);
+    if (options_.use_destination && add_obstacles(ranked, true)) {
+      ranked.unobstructed = free_of(pair.overlap, ranked.blocked);
     }
-    ranked.blocked = std::move(blocked);
-    ranked.contact_a = subtract(pair.contact_a, ranked.blocked);
-    ranked.contact_b = subtract(pair.contact_b, ranked.blocked);
+    ranked.contact_a = free_of(pair.contact_a, ranked.blocked);
+    ranked.contact_b = free_of(pair.contact_b, ranked.blocked);
     const double free_area = area(ranked.unobstructed);
     ranked.share = free_area / pair.area;
     ranked.score =
@@ -94,31 +92,28 @@ class Ranker {
   }
 
  private:
-  Region obstacles(RankedPair& ranked, bool at_destination) {
-    std::vector<Region> found;
+  /// To what is blocked; true if there is anything.
+  bool add_obstacles(RankedPair& ranked, bool at_destination) {
+    const std::size_t known = ranked.blocked.loops.size();
     for (const NearbyBody& near : nearby_) {
       throw_if_stopped();
       if (near.at_destination != at_destination) continue;
       const Body& body = cell_.body(near.body);
       Region region = obstruction_.of_body(ranked.pair, body, near.X_PB, reach_of(gripper_));
-      if (region.empty()) continue;
       if (covers(ranked, region)) note(ranked, near);
-      found.push_back(std::move(region));
+      grasp::append(std::move(region), ranked.blocked);
     }
-    return united(std::move(found));
+    return ranked.blocked.loops.size() > known;
   }
 
-  /// Regions that are unions already need not be united where there is but one.
-  static Region united(std::vector<Region> regions) {
-    regions.erase(std::remove_if(regions.begin(), regions.end(),
-                                 [](const Region& region) { return region.empty(); }),
-                  regions.end());
-    if (regions.empty()) return {};
-    return regions.size() == 1 ? std::move(regions.front()) : unite(regions);
+  /// Booleans take time by the number of loops: most are beside the region.
+  static Region free_of(const Region& region, const Region& blocked) {
+    return region.empty() ? Region{} : subtract(region, grasp::loops_near(blocked, region));
   }
 
   static bool covers(const RankedPair& ranked, const Region& region) {
-    return !region.empty() && area(intersect(ranked.pair.overlap, region)) >= kNoArea;
+    const Region near = grasp::loops_near(region, ranked.pair.overlap);
+    return !near.empty() && area(intersect(ranked.pair.overlap, near)) >= kNoArea;
   }
 
   static void note(RankedPair& ranked, const NearbyBody& near) {

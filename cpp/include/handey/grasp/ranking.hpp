@@ -34,8 +34,10 @@ struct RankingOptions {
 struct RankedPair {
   FeaturePair pair;
   Region unobstructed;  ///< of the overlap, in (x, y) of G [m]
-  Region blocked;       ///< what obstructs the fingers' layers on and around the overlap, grown [m]
-  double share = 0.0;   ///< unobstructed / overlap area
+  /// What obstructs the fingers' layers on and around the overlap, grown [m]. Its loops may
+  /// overlap, so that `area` counts twice; `contains` and the booleans are right.
+  Region blocked;
+  double share = 0.0;            ///< unobstructed / overlap area
   double share_at_origin = 0.0;  ///< looking at the origin's obstacles only
   /// share * min(1, unobstructed area / area of a pad) for two faces. With edges: share * min(1,
   /// unobstructed length / pad length), at a point: share; that times 0.10 (face and edge), 0.05
