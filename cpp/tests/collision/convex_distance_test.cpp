@@ -47,6 +47,34 @@ TEST(ConvexDistance, BoxesAgreeWithTheDistanceOfTheirTriangles) {
   EXPECT_GT(apart, 1000);
 }
 
+TEST(ConvexDistance, SidesOfBoxesTellNoMoreThanTheDistance) {
+  Random random(5);
+  const auto size = [&] {
+    return Eigen::Vector3d(random.uniform(0.005, 0.3), random.uniform(0.005, 0.3),
+                           random.uniform(0.005, 0.6));
+  };
+  int apart = 0, told = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto a = piece_of(Box{size()}), b = piece_of(Box{size()});
+    const Pose X_WA = random.pose(0.3), X_WB = random.pose(0.3);
+    const double proved = convex_distance(a->hull, X_WA, b->hull, X_WB, 0.0, 10.0);
+    const double sides =
+        box_to_box(X_WA * a->box.X_BO, a->box.half, X_WB * b->box.X_BO, b->box.half);
+    ASSERT_NEAR(sides, box_to_box(X_WB * b->box.X_BO, b->box.half, X_WA * a->box.X_BO, a->box.half),
+                1e-12)
+        << i;
+    if (proved <= 0.0) {
+      ASSERT_LE(sides, 1e-9) << i;
+      continue;
+    }
+    ++apart;
+    told += sides > 0.0;
+    ASSERT_LE(sides, proved * (1.0 + 2e-6) + 1e-7) << i;
+  }
+  EXPECT_GT(apart, 1000);
+  EXPECT_GT(told, 0.9 * apart) << "edges across each other keep few boxes apart";
+}
+
 TEST(ConvexDistance, BallsAndCylindersAreExact) {
   const auto ball = piece_of(Sphere{0.05});
   Pose X = Pose::Identity();

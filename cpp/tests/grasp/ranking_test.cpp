@@ -210,6 +210,61 @@ TEST(Ranking, ShareAgreesWithSampledPointsWhoseFingersAreTestedOneByOne) {
   EXPECT_GT(partly, 5);
 }
 
+// A box as the overlapping boxes of a grid, each half as large again as its cell.
+Body in_overlapping_pieces(const Body& whole, int count) {
+  const Eigen::Vector3d size = std::get<Box>(whole.shapes.front().geometry).size;
+  Body body = whole;
+  body.shapes.clear();
+  for (int i = 0; i < count * count * count; ++i) {
+    const Eigen::Vector3d cell = size / count;
+    Eigen::Vector3d lower(i % count, i / count % count, i / (count * count));
+    lower = lower.cwiseProduct(cell) - 0.5 * size;
+    const Eigen::Vector3d upper = (lower + 1.5 * cell).cwiseMin(0.5 * size);
+    Shape shape{Box{upper - lower}, Pose::Identity()};
+    shape.X_BS.translation() = 0.5 * (lower + upper);
+    body.shapes.push_back(shape);
+  }
+  return body;
+}
+
+TEST(Ranking, IsTheSameForObstaclesOfManyOverlappingShapes) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> place(-0.06, 0.06), turn(-M_PI, M_PI);
+  int partly = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    Cell whole = testing::jaw_cell();
+    whole.parts.push_back(box_body("block", {0.08, 0.06, 0.05}));
+    for (int i = 0; i < 4; ++i) {
+      const Pose X_WB = pose_from_xyz_rpy({place(random), place(random), place(random)},
+                                          {turn(random), turn(random), turn(random)});
+      whole.fixtures.push_back(box_body("f" + std::to_string(i), {0.02, 0.04, 0.06}, X_WB));
+    }
+    Cell pieces = whole;
+    for (Body& body : pieces.fixtures) body = in_overlapping_pieces(body, 3);
+    const Pose goal = translation(0.03, 0.01, 0.02);
+    RankingOptions options;
+    options.least_share = 0.0;
+    const Ranking one = rank_faces(whole, 0, goal, options);
+    const Ranking many = rank_faces(pieces, 0, goal, options);
+    ASSERT_EQ(one.ranked.size(), many.ranked.size());
+    for (std::size_t i = 0; i < one.ranked.size(); ++i) {
+      const RankedPair &a = one.ranked[i], &b = many.ranked[i];
+      EXPECT_EQ(to_string(a.pair), to_string(b.pair));
+      EXPECT_NEAR(a.share, b.share, 1e-4);
+      EXPECT_NEAR(a.share_at_origin, b.share_at_origin, 1e-4);
+      EXPECT_EQ(a.obstructing, b.obstructing);
+      const Region blocked_a = unite({a.blocked}), blocked_b = unite({b.blocked});
+      // Farther off, pieces are left out that the whole is not.
+      const Region around = offset(a.pair.overlap, whole.robot->gripper.pad_length);
+      EXPECT_LT(area(subtract(intersect(blocked_a, around), blocked_b)), 1e-7)
+          << "nothing solid may be lost";
+      EXPECT_LT(area(intersect(b.unobstructed, blocked_b)), 1e-9);
+      partly += b.share > 0.1 && b.share < 0.9;
+    }
+  }
+  EXPECT_GT(partly, 5);
+}
+
 TEST(Ranking, OfRealPartsPutsTheLargeOppositeFacesFirst) {
   const std::optional<Body> cube = testing::shared_part("xyz_cube_20mm.stl", 0.001);
   if (!cube) GTEST_SKIP() << "no shared data";
