@@ -1,9 +1,6 @@
-"""What was tried, how far it got, and how long each stage took.
+"""How the planning of a task went: its verdict, its goals, the motions of the plan, and the times.
 
-A planner answers with a plan or with a reason. The reason is collected here while planning: per
-goal the funnel of grasps (found, spanned by the jaws, unobstructed, legal at both ends,
-approached, connected) and for every attempt the stage at which it fell with the planner's own
-words, which name bodies and numbers.
+A planner answers with a plan or with a reason; the reasons are those of the goals.
 """
 
 from __future__ import annotations
