@@ -32,7 +32,7 @@ def test_a_cell_that_obstacles_moved_to_the_origin_lose_and_those_at_their_place
     assert checked.ok, checked.faults
     lost = plan(TWO_DOORS, as_the_article=True)
     assert lost.plan is None
-    # Without the wall at the destination it plans: see below. No grasp was lacking, and every way in
+    # Without the wall at the destination it plans (below). No grasp was lacking, and every way in
     # was asked for: in the plane, then by the whole arm.
     goal = lost.report.goals[0]
     assert goal.counts["legal grasp poses"] > 0 and not goal.counts.get("approached")

@@ -140,6 +140,7 @@ ORDER = [
     "task",
     "formats",
     "cache",
+    "options",
     "errors",
     "_core",
 ]

@@ -16,6 +16,7 @@ from itertools import product
 import numpy as np
 
 from handey import _core
+from handey.options import with_fields
 
 __all__ = ["WayOutOptions", "way_out"]
 
@@ -58,12 +59,7 @@ def way_out(
     """
     stances = _stances(solver, checker, start, options)
     for longest in options.edges if stances else ():
-        sampling = _core.SamplingOptions(
-            seed=options.sampling.seed,
-            max_iterations=options.sampling.max_iterations,
-            range=longest,
-            certificate=options.sampling.certificate,
-        )
+        sampling = with_fields(options.sampling, range=longest)
         motion = _core.plan_by_sampling(checker, start, stances, sampling)
         if motion.found:
             shortcut = _core.ShortcutOptions(seed=sampling.seed)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from handey import _core
 from handey.motion.carry import DirectOptions
 from handey.motion.way_out import WayOutOptions
+from handey.options import with_fields
 from handey.planning.plan_options import PlanOptions
 
 __all__ = ["by_slides", "quick_options", "with_budget"]
@@ -14,21 +15,7 @@ __all__ = ["by_slides", "quick_options", "with_budget"]
 
 def by_slides(direct: DirectOptions) -> DirectOptions:
     """The same without the complete search of approaches, which costs most where there is none."""
-    given = direct.approach
-    approach = _core.ApproachOptions(
-        cell=given.cell,
-        run_in=given.run_in,
-        least_run_in=given.least_run_in,
-        most_slides=given.most_slides,
-        slide=given.slide,
-        legality=given.legality,
-        certificate=given.certificate,
-        contact_share=given.contact_share,
-        destination_obstacles_join=given.destination_obstacles_join,
-        search=given.search,
-        search_levels=0,
-    )
-    return replace(direct, approach=approach)
+    return replace(direct, approach=with_fields(direct.approach, search_levels=0))
 
 
 def quick_options(options: PlanOptions | None = None, deadline: float | None = None) -> PlanOptions:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from handey import _core
 from handey.motion.carry import Workspace
+from handey.options import with_fields
 from handey.planning.plan_options import PlanOptions
 from handey.reporting.funnel import Funnel
 from handey.reporting.goal_report import GoalReport
@@ -220,15 +221,9 @@ def _rank(
     choice: _core.PairChoice,
     open_clearance: float | None = None,
 ) -> _core.Ranking:
-    options = _core.RankingOptions(
-        features=wanted.features,
-        finger_clearance=wanted.finger_clearance,
-        open_clearance=wanted.open_clearance if open_clearance is None else open_clearance,
-        use_destination=wanted.use_destination,
-        least_share=wanted.least_share,
-        most_targets=wanted.most_targets,
-        pairs=choice,
-    )
+    options = with_fields(wanted, pairs=choice)
+    if open_clearance is not None:
+        options.open_clearance = open_clearance
     scene = work.scene
     with work.clock("rank grasps"):
         return _core.rank_grasps(scene.cell, scene.part, scene.X_WP_goal, options)

@@ -18,6 +18,7 @@ import numpy as np
 
 from handey import _core
 from handey.motion.carry import Carry, Workspace
+from handey.options import with_fields
 from handey.planning.budgets import with_budget
 from handey.planning.plan_options import PlanOptions
 from handey.regrasp.grasp_table import (
@@ -25,7 +26,6 @@ from handey.regrasp.grasp_table import (
     GraspTableOptions,
     grasp_table,
     joined,
-    with_pairs,
 )
 from handey.regrasp.legal_grasps import clears_ground, compatible
 from handey.regrasp.search import NO_SUPPORT, RegraspSearch
@@ -205,6 +205,6 @@ class Regrasp:
         self, pairs: _core.PairChoice, legality: _core.LegalityOptions, most: int
     ) -> GraspTable:
         cell = self.work.scene.cell
-        options = GraspTableOptions(with_pairs(self.options.ranking, pairs), legality, most)
+        options = GraspTableOptions(with_fields(self.options.ranking, pairs=pairs), legality, most)
         with self.work.clock("grasp table"):
             return grasp_table(cell.parts[self.work.scene.part], cell.robot, options)

@@ -21,8 +21,9 @@ import numpy as np
 
 from handey import _core
 from handey.cache import table_directory
+from handey.options import with_fields
 
-__all__ = ["GraspTable", "GraspTableOptions", "grasp_table", "joined", "with_pairs"]
+__all__ = ["GraspTable", "GraspTableOptions", "grasp_table", "joined"]
 
 FORMAT = 2  # raised when the meaning of a kept table changes
 ROW = 10  # numbers of a grasp
@@ -46,7 +47,7 @@ class GraspTableOptions:
     def ranking_of(self, faces: bool) -> _core.RankingOptions:
         """The ranking of the pairs of two faces alone, or of all the others."""
         choice = _core.PairChoice.TwoFaces if faces else _core.PairChoice.BeyondFaces
-        return with_pairs(self.ranking, choice)
+        return with_fields(self.ranking, pairs=choice)
 
 
 @dataclass(frozen=True)
@@ -71,19 +72,6 @@ class GraspTable:
     def merit(self) -> np.ndarray:
         """Of the grasps: contact, lever, direction along an edge, shape (n,)."""
         return np.asarray(self.rows[:, 9])
-
-
-def with_pairs(options: _core.RankingOptions, pairs: _core.PairChoice) -> _core.RankingOptions:
-    """The same ranking of other pairs."""
-    return _core.RankingOptions(
-        features=options.features,
-        finger_clearance=options.finger_clearance,
-        open_clearance=options.open_clearance,
-        use_destination=options.use_destination,
-        least_share=options.least_share,
-        most_targets=options.most_targets,
-        pairs=pairs,
-    )
 
 
 def joined(a: GraspTable, b: GraspTable) -> GraspTable:
