@@ -1,6 +1,7 @@
 // Proofs that there is no grasp, or no way to one: of the floors grasp and cspace.
 #include "configurations.hpp"
 #include "handey/cspace/exhaustion.hpp"
+#include "handey/cspace/shut_in.hpp"
 #include "handey/cspace/walled_off.hpp"
 #include "handey/grasp/hand_reach.hpp"
 #include "interruptible.hpp"
@@ -132,10 +133,61 @@ Raises:
     InvalidInput: for a start outside the limits, a pose that is not rigid, a part without shapes.)");
 }
 
+void bind_shut_in(py::module_& m) {
+  const ShutInOptions defaults;
+  py::class_<ShutInOptions>(m, "ShutInOptions", "Options of prove_shut_in.")
+      .def(py::init([](const py::object& finest, std::size_t most_cubes, std::size_t most_steps) {
+             return ShutInOptions{real_number(finest, "finest"), most_cubes, most_steps};
+           }),
+           py::kw_only(), py::arg("finest") = defaults.finest,
+           py::arg("most_cubes") = defaults.most_cubes, py::arg("most_steps") = defaults.most_steps)
+      .def_readwrite("finest", &ShutInOptions::finest, "Edge of the smallest cubes [m].")
+      .def_readwrite("most_cubes", &ShutInOptions::most_cubes, "Looked at before it is given up.")
+      .def_readwrite("most_steps", &ShutInOptions::most_steps,
+                     "From cube to cube before it is given up.");
+  py::class_<ShutIn>(m, "ShutIn", "Can a part not come to its goal at all? True if that is proved.")
+      .def_readonly("shut_in", &ShutIn::shut_in)
+      .def_readonly("end", &ShutIn::end,
+                    "0: it does not come away from the first place; 1: to the second.")
+      .def_readonly("radius", &ShutIn::radius, "Of the ball that the part holds [m].")
+      .def_readonly("resolution", &ShutIn::resolution,
+                    "Edge of the smallest cubes that took part [m].")
+      .def_readonly("cubes_looked_at", &ShutIn::cubes_looked_at)
+      .def_readonly("bodies", &ShutIn::bodies, "Round the end, those that block most cubes first.")
+      .def_readonly("reason", &ShutIn::reason, "Why it is not proved.")
+      .def("__bool__", [](const ShutIn& self) { return self.shut_in; });
+  m.def(
+      "prove_shut_in",
+      [](CollisionChecker& checker, const py::object& X_RP, const py::object& X_RP_goal,
+         const ShutInOptions& options) {
+        const Pose from = real_pose(X_RP, "X_RP"), to = real_pose(X_RP_goal, "X_RP_goal");
+        const Unlock unlock;
+        return prove_shut_in(checker, from, to, options);
+      },
+      "checker"_a, "X_RP"_a, "X_RP_goal"_a, "options"_a = defaults,
+      R"(Prove that a part does not come from one place to another, whoever carries it.
+
+A ball that the part holds would have to. What is called shut in is, with any grasp and any regrasp.
+What is not may be so all the same.
+
+Args:
+    checker: CollisionChecker of the cell with the part held; what stands there never moves.
+    X_RP: the part in the robot frame where it stands, (4, 4).
+    X_RP_goal: the same where it is to stand.
+    options: ShutInOptions.
+
+Returns:
+    ShutIn.
+
+Raises:
+    InvalidInput: for an empty hand, poses that are not rigid, options out of range.)");
+}
+
 }  // namespace
 
 void bind_proofs(py::module_& m) {
   bind_walled_off(m);
+  bind_shut_in(m);
   bind_exhaustion(m);
   m.def(
       "beyond_reach",

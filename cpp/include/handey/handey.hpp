@@ -70,6 +70,7 @@
 #include "handey/cspace/planar_arm.hpp"
 #include "handey/cspace/search.hpp"
 #include "handey/cspace/separation.hpp"
+#include "handey/cspace/shut_in.hpp"
 #include "handey/cspace/slice.hpp"
 #include "handey/cspace/walled_off.hpp"
 // motion

@@ -3,8 +3,8 @@
 A goal can be proved to be out of the question without a search: the part is wider than the jaws
 open, or so far away that no hand pose lets the jaws close on it. Where the first grasps that are
 looked at are illegal, all hand poses on all of its feature pairs may be proved so at its start or
-at its goal alone: no regrasp helps then. Where motions fail, the arm may be proved to be walled off
-from either. Bodies that handey may move are no obstacles here, so a
+at its goal alone: no regrasp helps then. Where motions fail, the part may be proved to be shut in at
+either, or the arm to be walled off from it. Bodies that handey may move are no obstacles here, so a
 proof of one goal holds in whatever order the goals are reached: the task is infeasible.
 Not guaranteed: a proof where there is no plan. What is proved is so at the resolution that is told.
 """
@@ -70,6 +70,7 @@ class Proofs:
     solver: _core.SphericalWristSolver
     _exhausted: dict[tuple[object, ...], _core.Exhaustion] = field(default_factory=dict)
     _walled: dict[tuple[object, ...], _core.WalledOff] = field(default_factory=dict)
+    _shut: dict[int, _core.ShutIn] = field(default_factory=dict)
 
     def at_once(self) -> Proved | None:
         """What needs no search, of the first goal of which it can be said."""
@@ -127,9 +128,12 @@ class Proofs:
         return None
 
     def no_way(self, index: int) -> Proof | None:
-        """The arm does not come to where the part must be held to reach a goal."""
+        """The part does not come to its goal; the arm does not come to where it must be held."""
         if not self._must_move(index):
             return None
+        shut = self.shut_in(index)
+        if shut is not None:
+            return shut
         cell, name = self.cell_file.cell, self.cell_file.goals[index].part
         for end, X_WP in self.ends(index):
             key = (name, X_WP.tobytes())
@@ -146,6 +150,21 @@ class Proofs:
             if found:
                 return _no_way(name, end, found)
         return None
+
+    def shut_in(self, index: int) -> Proof | None:
+        """The part does not come to its goal, whoever carries it."""
+        ends = [X_WP for _, X_WP in self.ends(index)]
+        if len(ends) < 2 or not self._must_move(index):
+            return None
+        name, X_RW = self.cell_file.goals[index].part, np.linalg.inv(self.cell_file.cell.X_WR)
+        if index not in self._shut:
+            part = self.cell_file.cell.part_index(name)
+            held = self._unmoved.with_held(part, np.eye(4))
+            self._shut[index] = _core.prove_shut_in(
+                _core.CollisionChecker(self.model, held), X_RW @ ends[0], X_RW @ ends[1]
+            )
+        found = self._shut[index]
+        return _shut_in(name, found) if found else None
 
     def _no_legal_pose(self, index: int, where: str, found: _core.Exhaustion) -> Proof:
         part = self.cell_file.goals[index].part
@@ -269,6 +288,17 @@ def _no_way(part: str, end: str, found: _core.WalledOff) -> Proof:
         kind, "connected", text, end=end, bodies=tuple(found.bodies[:MOST_CAUSES]), proved=True
     )
     return Proof(f"no way: {text}, by cells of {degrees:.2g} degrees of joints 1 to 3", cause)
+
+
+def _shut_in(part: str, found: _core.ShutIn) -> Proof:
+    bodies = tuple(found.bodies[:MOST_CAUSES])
+    end, way = ENDS[found.end], ("out", "in")[found.end]
+    about = ", ".join(plain(name) for name in bodies)
+    text = f"{part} does not come {way} at the {end}: {about}"
+    width, edge = 2e3 * found.radius, 1e3 * found.resolution
+    how = f"nowhere a ball of {width:.1f} mm passes, which the part holds, by cubes of {edge:g} mm"
+    cause = Reason("transfer", "connected", f"{text}; {how}", end=end, bodies=bodies, proved=True)
+    return Proof(f"no way: {text}; {how}", cause)
 
 
 def _told(cause: _core.IllegalCause, hand: str) -> str:

@@ -250,6 +250,8 @@ class Tries:
         if carry.stage == "done":
             return planned(self.report, attempt.name, carry)
         self.unconnected += attempt.falls == 0
+        if self.unconnected == WAITING and not attempt.falls:
+            self.work.give_up(True)
         attempt.falls += 1
         if round_ + 1 < len(self.options.sampling_rounds):
             self.waiting.setdefault(round_ + 1, []).append(attempt)
