@@ -11,6 +11,8 @@ import solvable_cells
 import yaml
 
 import handey
+from handey import _core
+from handey.planning.proofs import Proofs
 
 ROOT = Path(__file__).resolve().parent.parent
 CELLS = ROOT / "models" / "cells"
@@ -190,6 +192,33 @@ def test_an_arm_in_a_cage_is_proved_walled_off_by_name(tmp_path: Path) -> None:
     goal = report.goals[0]
     assert "walled off" in goal.proof and "cage" in goal.proof
     assert goal.cause is not None and goal.cause.bodies == ("cage",) and goal.cause.proved
+
+
+@pytest.mark.parametrize("end", ["origin", "destination"])
+def test_a_part_shut_in_is_proved_so_by_name(end: str, tmp_path: Path) -> None:
+    x, y = 0.5, 0.2 if end == "origin" else -0.2
+    long = [
+        {"box": [0.30, 0.01, 0.15], "pose": {"xyz": [x, y + s * 0.145, 0.075]}} for s in (-1, 1)
+    ]
+    wide = [
+        {"box": [0.01, 0.28, 0.15], "pose": {"xyz": [x + s * 0.145, y, 0.075]}} for s in (-1, 1)
+    ]
+    # Bars with 23 mm between them: through which no ball of 40 mm comes.
+    bars = [
+        {"box": [0.004, 0.28, 0.004], "pose": {"xyz": [x + 0.027 * k, y, 0.152]}}
+        for k in range(-5, 6)
+    ]
+    path = cell(
+        tmp_path,
+        fixtures={"cage": {"shapes": [*long, *wide, *bars]}, "table": TABLE},
+    )
+    file = handey.load_cell(path)
+    model = _core.make_collision_model(file.cell)
+    proofs = Proofs(file, model, _core.SphericalWristSolver(file.cell.robot))
+    proof = proofs.no_way(0)
+    assert proof is not None and proof.cause is not None and proof.cause.proved
+    assert (proof.cause.kind, proof.cause.end) == ("transfer", end)
+    assert proof.cause.bodies[0] == "cage" and "ball of 40.0 mm" in proof.text
 
 
 def test_what_is_not_proved_tells_what_was_covered() -> None:

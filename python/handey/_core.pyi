@@ -127,6 +127,8 @@ __all__: list[str] = [
     "SeparationOptions",
     "Shape",
     "ShortcutOptions",
+    "ShutIn",
+    "ShutInOptions",
     "SingularityMargin",
     "Slab",
     "Slice",
@@ -211,6 +213,7 @@ __all__: list[str] = [
     "pose_from_xyz_rpy",
     "prove_apart",
     "prove_layer",
+    "prove_shut_in",
     "prove_walled_off",
     "quaternion_xyzw",
     "rank_grasps",
@@ -4807,6 +4810,74 @@ class SliceOptions:
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
+class ShutInOptions:
+    """
+    Options of prove_shut_in.
+    """
+    def __init__(
+        self,
+        *,
+        finest: typing.Any = 0.001,
+        most_cubes: typing.SupportsInt | typing.SupportsIndex = 30000,
+        most_steps: typing.SupportsInt | typing.SupportsIndex = 1000000,
+    ) -> None: ...
+    @property
+    def finest(self) -> float:
+        """
+        Edge of the smallest cubes [m].
+        """
+    @finest.setter
+    def finest(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def most_cubes(self) -> int:
+        """
+        Looked at before it is given up.
+        """
+    @most_cubes.setter
+    def most_cubes(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def most_steps(self) -> int:
+        """
+        From cube to cube before it is given up.
+        """
+    @most_steps.setter
+    def most_steps(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class ShutIn:
+    """
+    Can a part not come to its goal at all? True if that is proved.
+    """
+    def __bool__(self) -> bool: ...
+    @property
+    def bodies(self) -> list[str]:
+        """
+        Round the end, those that block most cubes first.
+        """
+    @property
+    def cubes_looked_at(self) -> int: ...
+    @property
+    def end(self) -> int:
+        """
+        0: it does not come away from the first place; 1: to the second.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        Of the ball that the part holds [m].
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why it is not proved.
+        """
+    @property
+    def resolution(self) -> float:
+        """
+        Edge of the smallest cubes that took part [m].
+        """
+    @property
+    def shut_in(self) -> bool: ...
+
 class WalledOff:
     """
     Is the arm shut out from a part? True if that is proved.
@@ -5246,6 +5317,28 @@ def find_compatible_grasps(
 
     Raises:
         InvalidInput: for a part in the hand, unknown indices, bad poses or numbers.
+    """
+
+def prove_shut_in(
+    checker: CollisionChecker, X_RP: typing.Any, X_RP_goal: typing.Any, options: ShutInOptions = ...
+) -> ShutIn:
+    """
+    Prove that a part does not come from one place to another, whoever carries it.
+
+    A ball that the part holds would have to. What is called shut in is, with any grasp and any regrasp.
+    What is not may be so all the same.
+
+    Args:
+        checker: CollisionChecker of the cell with the part held; what stands there never moves.
+        X_RP: the part in the robot frame where it stands, (4, 4).
+        X_RP_goal: the same where it is to stand.
+        options: ShutInOptions.
+
+    Returns:
+        ShutIn.
+
+    Raises:
+        InvalidInput: for an empty hand, poses that are not rigid, options out of range.
     """
 
 def prove_walled_off(

@@ -3,9 +3,9 @@
 A goal can be proved to be out of the question without a search: the part is wider than the jaws
 open, or so far away that no hand pose lets the jaws close on it. Where the first grasps that are
 looked at are illegal, all hand poses on all of its feature pairs may be proved so at its start or
-at its goal alone: no regrasp helps then. Where motions fail, the part may be proved to be shut in at
-either, or the arm to be walled off from it. Bodies that handey may move are no obstacles here, so a
-proof of one goal holds in whatever order the goals are reached: the task is infeasible.
+at its goal alone: no regrasp helps then. Where motions fail, the part may be proved to be shut in
+at either, or the arm to be walled off from it. Bodies that handey may move are no obstacles here,
+so a proof of one goal holds in whatever order the goals are reached: the task is infeasible.
 Not guaranteed: a proof where there is no plan. What is proved is so at the resolution that is told.
 """
 
