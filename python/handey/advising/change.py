@@ -9,12 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from handey import _core
 from handey.reporting.advice import Edit
-
-if TYPE_CHECKING:
-    from handey import _core
 
 __all__ = ["COSTS", "Change", "Family", "edited", "with_edits", "written"]
 

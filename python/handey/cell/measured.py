@@ -9,16 +9,13 @@ Stages that plan see a fixture like any other, by the name of the depth map.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from handey import _core
+from handey.cell.depth_map import DepthMapEntry
 from handey.errors import Fault, InvalidInput
 from handey.task import PlaceAt, Task
-
-if TYPE_CHECKING:
-    from handey.cell.depth_map import DepthMapEntry
 
 __all__ = ["with_depth_maps"]
 

@@ -11,14 +11,11 @@ Not guaranteed: that with the cause away there is a plan.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from handey import _core
+from handey.reporting.funnel import Funnel
 from handey.reporting.reasons import Reason, Stage
 from handey.reporting.wording import ENDS, Names, of_obstacle
-
-if TYPE_CHECKING:
-    from handey.reporting.funnel import Funnel
 
 __all__ = ["find_cause", "is_by_nearest", "with_depths"]
 

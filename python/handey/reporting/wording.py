@@ -7,13 +7,10 @@ degrees. What programs need is in the fields beside the text.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from handey import _core
+from handey.motion.carry import Carry
 from handey.reporting.reasons import KINDS, Reason
-
-if TYPE_CHECKING:
-    from handey.motion.carry import Carry
 
 __all__ = [
     "ENDS",
