@@ -25,6 +25,7 @@ from xml.etree import ElementTree
 
 import broken_ends
 import broken_fresh
+import broken_later
 import broken_ways
 import numpy as np
 import yaml
@@ -43,6 +44,7 @@ __all__ = ["CELLS", "Answer", "answer", "is_planned"]
 BATCHES = {
     "first": (broken_ends, broken_ways),
     "fresh": (broken_fresh,),
+    "later": (broken_later,),
 }
 LIMIT = 2.0  # s
 
