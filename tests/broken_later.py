@@ -219,52 +219,45 @@ def support_out_of_reach(folder: Path, is_broken: bool) -> Cell:
     return cell(folder, fixtures, {"cross": cross}, [goal], table=BARE)
 
 
-@broken(Truth(("transfer",), bodies=("divider",)))
-def divider_between_the_ends(folder: Path, is_broken: bool) -> Cell:
-    """A wall higher than the arm reaches divides the table between the part and its goal."""
-    high = 2.2 if is_broken else 0.1
-    fixtures = {"divider": on_table([1.2, 0.02, high], (0.9, 0.0))}
-    start = [0.8, 1.2, -2.6, 0.0, 0.0, 0.0]
-    parts = {"block": on_table(BLOCK, (0.5, 0.35))}
-    goal = place("block", [0.5, -0.35, 0.025])
-    more: dict[str, Any] = {"robot": {"start": start}, "finish": "anywhere"}
-    return cell(folder, fixtures, parts, [goal], **more)
+@broken(Truth(refused="E_UNITS"), Truth(refused="E_RANGE"))
+def part_in_the_wrong_unit(folder: Path, is_broken: bool) -> Cell:
+    """The mesh of the part, which is in metres, is read as if it were a thousand times larger."""
+    mesh = real("lshape.stl", 1000.0 if is_broken else 1.0)
+    parts = {"lshape": lying(mesh, [0.5, 0.3, 0.0], [0, 0, 0.4])}
+    return cell(folder, {}, parts, [place("lshape", [0.45, -0.2, 0.0], -0.6)])
 
 
-@broken(Truth(("obstructed", "collision"), "destination", bodies=("crate", "corner")))
-def crate_at_the_corner(folder: Path, is_broken: bool) -> Cell:
-    """The goal is in a corner of two walls, and on its third side stands a crate."""
-    size = [0.05, 0.09, 0.05]
-    at = np.array([0.5, -0.25])
-    walls = [
-        box([0.02, 0.16, 0.12], [size[0] / 2 + 0.015, 0.0, 0.06]),
-        box([0.1, 0.02, 0.12], [0.0, -size[1] / 2 - 0.015, 0.06]),
-    ]
-    fixtures = {"corner": shapes(*walls, at=(0.5, -0.25))}
-    away = -size[0] / 2 - (0.006 if is_broken else 0.1) - 0.04
+@broken(Truth(("obstructed", "collision"), "destination", bodies=("crate", "wall")))
+def crate_at_the_wall(folder: Path, is_broken: bool) -> Cell:
+    """The goal is at a wall, and on a side that can be held then stands a crate."""
+    fixtures = {"wall": on_table([0.02, 0.2, 0.12], (0.54, -0.25))}
+    away = 0.045 + (0.006 if is_broken else 0.15) + 0.05
     parts = {
-        "block": on_table(size, START),
-        "crate": on_table([0.08, 0.12, 0.08], (float(at[0] + away), float(at[1]))),
+        "block": on_table([0.05, 0.09, 0.05], START),
+        "crate": on_table([0.1, 0.1, 0.08], (0.475, -0.25 - away)),
     }
     return cell(folder, fixtures, parts, [place("block", [0.5, -0.25, 0.025])])
 
 
-@broken(Truth(("out_of_reach", "joint_limit", "collision", "obstructed"), "destination"))
-def goal_too_near_the_small_arm(folder: Path, is_broken: bool) -> Cell:
-    """The goal is so near to the small arm that it cannot bend back to it."""
-    x = 0.15 if is_broken else 0.38
-    parts = {"block": on_table([0.03, 0.05, 0.04], (0.35, 0.2))}
-    goal = place("block", [x, 0.0, 0.02])
-    return cell(folder, {}, parts, [goal], opening=0.08, arm="irb120")
+@broken(Truth(("obstructed", "collision", "approach", "deposit"), "destination", bodies=("bench",)))
+def bench_over_the_goal(folder: Path, is_broken: bool) -> Cell:
+    """The small arm is to put the part under the midst of a bench, where its hand has no room."""
+    high = 0.09
+    legs = [box([0.02, 0.02, high], [x, y, high / 2]) for x in (-0.2, 0.2) for y in (-0.2, 0.2)]
+    board = box([0.42, 0.42, 0.015], [0, 0, high + 0.0075])
+    parts = {"block": on_table([0.03, 0.05, 0.04], (0.3, 0.25))}
+    at = (0.42, -0.15)
+    fixtures = {"bench": shapes(board, *legs, at=at)} if is_broken else {}
+    goal = place("block", [*at, 0.02])
+    return cell(folder, fixtures, parts, [goal], opening=0.08, arm="irb120")
 
 
-@broken(Truth(("obstructed", "collision"), "origin", bodies=("rack",)))
-def star_in_a_rack(folder: Path, is_broken: bool) -> Cell:
-    """A star of 20 mm plate stands in a rack of two boards, 4 mm from its faces, and as high."""
-    gap = 0.004 if is_broken else 0.05
-    boards = [box([0.14, 0.012, 0.1], [0, s * (0.01 + gap + 0.006), 0.05]) for s in (-1, 1)]
-    at = (0.48, 0.25)
-    fixtures = {"rack": shapes(*boards, at=at)}
-    star = real("star_prism.stl")
-    parts = {"star": lying(star, [*at, 0.0405], [0, 0, 0])}
-    return cell(folder, fixtures, parts, [place("star", [0.5, -0.25, 0.0405])])
+@broken(Truth(("obstructed", "collision"), "origin", bodies=("nest",)))
+def plus_in_its_nest(folder: Path, is_broken: bool) -> Cell:
+    """A plus of 20 mm stands in a nest as high as it is, with 2 mm all round."""
+    half, out, at = (0.012 if is_broken else 0.06), 0.1, (0.48, 0.25)
+    walls = [box([out - half, 2 * out, 0.02], [s * (out + half) / 2, 0, 0.01]) for s in (-1, 1)]
+    walls += [box([2 * half, out - half, 0.02], [0, s * (out + half) / 2, 0.01]) for s in (-1, 1)]
+    parts = {"plus": lying(real("kit_plus.obj", 0.001), [*at, 0.0], [0, 0, 0])}
+    fixtures = {"nest": shapes(*walls, at=at)}
+    return cell(folder, fixtures, parts, [place("plus", [0.5, -0.25, 0.0])])

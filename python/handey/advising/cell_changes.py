@@ -78,6 +78,11 @@ def _grounds(here: Situation) -> set[str]:
 def yielding(here: Situation, names: list[str]) -> Iterator[Family]:
     """Parts that may be moved aside, with a support to put them on if there is none."""
     has_support = any(body.support for body in [*here.cell.fixtures, *here.cell.parts])
+    pile = here.pile
+    if len(pile) > 1 and has_support:
+        edits = tuple(Edit(here.file, f"parts.{name}.may_move", True) for name in pile)
+        words = f"let {', '.join(pile[:-1])} and {pile[-1]} be moved aside"
+        yield _once(Change("may move", words, edits, load=len(pile) - 1), rank=-1.0)
     for order, name in enumerate(names):
         index = next((i for i, p in enumerate(here.cell.parts) if p.name == name), None)
         if index is None or here.cell.parts[index].may_move:

@@ -30,7 +30,8 @@ __all__ = ["find_advice"]
 MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
-PATIENCE = 6  # Choice: trials in vain after a change that plans
+# Choice: trials in vain after a change that plans, and their share of the time.
+PATIENCE, PATIENT = 6, 0.2
 DEAR = 0.05  # Choice: as much less plausible is what costs one shift of 10 mm more
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
@@ -144,9 +145,9 @@ class _Search:
             for blame in self.bodies:
                 self._plans_without(blame.name, 0)
         failed: dict[tuple[int, int], list[float]] = {}
-        last = 0
+        last, until = 0, 0.0
         while waiting and self.trials.left > 0:
-            if self.found and self.trials.count - last > PATIENCE:
+            if self.found and (self.trials.count > last + PATIENCE or self.trials.left < until):
                 break
             it = min(waiting, key=self._rank)
             waiting.remove(it)
@@ -158,6 +159,7 @@ class _Search:
                 self.found.append(change)
                 self._shrink(it, failed.get(key, []))
                 last = self.trials.count
+                until = self.trials.left - PATIENT * self.trials.options.advice_seconds
                 if change.kind == "order":  # nothing need be moved
                     break
             else:
@@ -175,7 +177,8 @@ class _Search:
         """Less for what is to be tried sooner."""
         # A body without which it plans is the likeliest to be moved.
         proved = any(self.without.get((it.family.body, effort)) for effort in range(it.effort + 1))
-        return it.rank - (PROVED if proved else 0.0)
+        is_moved = proved and it.family.kind != "may move"  # which takes long to try
+        return it.rank - (PROVED if is_moved else 0.0)
 
     def _plans_without(self, name: str, effort: int) -> bool:
         """Is this single body in the way?"""
@@ -272,6 +275,8 @@ class _Search:
             ]
             for family in poses.shifts(here, end, away, self._missing(end)):
                 yield family, ranks.get(f"shift {end}", LATE)
+            for family in poses.lowered(here, end, self._missing(end)):
+                yield family, ranks.get(f"shift {end}", LATE) + 2.0
             for family in poses.swings(here, end, self._joint_missing(end)):
                 yield family, ranks.get(f"shift {end}", LATE)
             for family in poses.turns(here, end):
@@ -286,7 +291,7 @@ SUGGESTED = {
     "would_fall": ("may move", "order", "earlier goal"),
     "unstable": ("shift destination", "order"),
     "in_the_way": ("may move", "order", "earlier goal", "shift destination"),
-    "no_place": ("region", "may move", "moved", "earlier goal", "order"),
+    "no_place": ("region", "moved", "may move", "earlier goal", "order"),
     "no_features": ("jaws",),
     "too_wide": ("jaws", "support"),
     "too_thin": ("jaws",),

@@ -17,7 +17,7 @@ from handey.advising.situation import Blame, Situation
 from handey.reporting.advice import Edit
 from handey.task import PlaceAt
 
-__all__ = ["moved_bodies", "removed", "shifts", "swings", "turns"]
+__all__ = ["lowered", "moved_bodies", "removed", "shifts", "swings", "turns"]
 
 # Choice: sizes in the order to try them: likely ones first [m, rad].
 MOVES = (0.06, 0.02, 0.3)
@@ -30,7 +30,15 @@ BEYOND = (0.03, 0.08, 0.0, 0.2)  # where it is known how much is missing
 TURNS = tuple(np.radians((30.0, 90.0, 60.0, 180.0)))
 STEP, TURN_STEP = 0.005, float(np.radians(5.0))
 ALIKE = 0.95  # Choice: cosine between directions of which one is enough
-AXES = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0, 1, 0), "-y": (0, -1, 0), "+z": (0, 0, 1)}
+HIGH = 0.5  # Choice: over the robot's base, what is out of reach comes nearer lowered [m]
+AXES = {
+    "+x": (1, 0, 0),
+    "-x": (-1, 0, 0),
+    "+y": (0, 1, 0),
+    "-y": (0, -1, 0),
+    "+z": (0, 0, 1),
+    "-z": (0, 0, -1),
+}
 
 
 def _rounded(values: np.ndarray) -> list[float]:
@@ -65,6 +73,26 @@ def moved_bodies(here: Situation, blame: Blame) -> Iterator[Family]:
             step=STEP,
             body="" if load else name,
         )
+
+
+def lowered(here: Situation, end: str, least: float | None) -> Iterator[Family]:
+    """What carries an end that is too high, lowered or raised with all that stands on it.
+
+    Args:
+        here: the goal that failed.
+        end: which of both.
+        least: how far it is out of reach; None where that is not why it fails: nothing is tried.
+    """
+    index = here.index if end == "destination" else -1
+    if least is None:
+        return
+    first = STEP * np.ceil(least / STEP)
+    sizes = tuple(round(float(first) + more, 4) for more in BEYOND)
+    rise = float(here.middle(end)[2] - here.robot_at[2])
+    axis = "-z" if rise > HIGH else "+z"
+    for name, load in here.loads.items():
+        if (here.goal.part, index) in load and name in here.content.get("fixtures", {}):
+            yield Family("fixture moved", _mover(here, name, axis), sizes, wave=0.5, step=STEP)
 
 
 def _mover(here: Situation, name: str, axis: str) -> Callable[[float], Change]:
@@ -128,6 +156,8 @@ def _away(here: Situation, blame: Blame) -> list[tuple[str, float]]:
     ends = [blame.end] if blame.end in here.ends else list(here.ends)
     scores: dict[str, float] = {}
     for axis, direction in AXES.items():
+        if axis == "-z":
+            continue
         along = np.array(direction, dtype=float)
         i, sign = int(np.argmax(np.abs(along))), float(along.sum())
         best = np.inf

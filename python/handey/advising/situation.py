@@ -126,6 +126,18 @@ class Situation:
         return found
 
     @cached_property
+    def pile(self) -> list[str]:
+        """Parts that stand on the goal's part at the start, and on these, that may not move."""
+        found, waiting = [], [self.goal.part]
+        while waiting:
+            for name, goal in self.loads.get(waiting.pop(), []):
+                if goal < 0 and name not in found:
+                    found.append(name)
+                    waiting.append(name)
+        may = {part.name for part in self.cell.parts if part.may_move}
+        return [name for name in found if name not in may]
+
+    @cached_property
     def boxes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Least and greatest corner in the world of each fixture and part [m]."""
         found = {}

@@ -19,6 +19,8 @@ __all__ = ["diagnose", "explain"]
 
 
 MOST_WHEN_STOPPED = 2  # Choice: grasps that are looked round when the time is up
+# Where hand poses fall by these, the arm is often walled off too, by what it meets on the way.
+ENDS_WAYS = ("joint_limit", "out_of_reach")
 NEAREST = 8000  # Choice: hand poses among which the nearest miss is looked for
 
 
@@ -74,6 +76,12 @@ def _explain(goal: GoalReport) -> None:
 
 def _of_both(proof: Reason | None, found: Reason | None, proved: bool) -> Reason | None:
     """The cause by a proof, which knows a bound for all hand poses, or what the nearest misses."""
+    if proof is not None and found is not None and proof.stage == "connected":
+        is_deeper = found.kind in ENDS_WAYS and found.end == proof.end
+    else:
+        is_deeper = False
+    if is_deeper:
+        return found  # that the arm does not come there follows from it
     if found is None or (proof is not None and (proof.kind, proof.end) != (found.kind, found.end)):
         return proof
     return replace(found, proved=True) if proved else found
