@@ -1,35 +1,40 @@
-"""Budgets: a short try keeps what was asked for, and gives up what takes long."""
+"""Budgets of the rounds of attempts: the first are cheap; slides alone mean no search."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
-
-import pytest
 
 import handey
-from handey.planning.budgets import quick_options
-
-CELLS = Path(__file__).resolve().parent.parent / "models" / "cells"
-
-
-def test_a_short_try_keeps_the_seed_and_forbidden_regrasps() -> None:
-    options = handey.PlanOptions(seed=7, sampling_rounds=(3,), most_by_arm=0, denser=())
-    options = replace(options, regrasp=replace(options.regrasp, most_regrasps=0))
-    quick = quick_options(options, deadline=2.0)
-    assert (quick.seed, quick.deadline, quick.sampling_rounds) == (7, 2.0, (3,))
-    assert (quick.most_by_arm, quick.denser, quick.regrasp.most_regrasps) == (0, (), 0)
-    assert not quick.prove and not quick.thorough
+from handey import _core
+from handey.motion.carry import DirectOptions
+from handey.planning.budgets import by_slides, with_budget
 
 
-def test_a_short_try_does_less_than_the_default() -> None:
-    quick, full = quick_options(), handey.PlanOptions()
-    assert max(quick.sampling_rounds) < max(full.sampling_rounds)
-    assert len(quick.denser) < len(full.denser)
-    assert quick.deadline is None
+def test_by_slides_gives_up_the_complete_search_alone() -> None:
+    approach = _core.ApproachOptions(most_slides=3, contact_share=0.35)
+    given = DirectOptions(approach=approach, most_places=2)
+    slides = by_slides(given)
+    assert slides.approach.search_levels == 0 and given.approach.search_levels > 0
+    assert (slides.approach.most_slides, slides.approach.contact_share) == (3, 0.35)
+    assert slides.most_places == 2
 
 
-@pytest.mark.parametrize("cell", ["demo", "between_walls", "shelf"])
-def test_a_short_try_plans_what_is_not_hard(cell: str) -> None:
-    loaded = handey.load_cell(CELLS / f"{cell}.yaml")
-    assert handey.plan(loaded, quick_options(deadline=60.0)).plan is not None
+def test_the_whole_arm_is_sampled_from_the_second_round_on() -> None:
+    options = handey.PlanOptions()
+    assert with_budget(options, 0).arm is None
+    assert with_budget(options, 1).arm is not None
+
+
+def test_each_round_samples_as_much_as_the_options_say() -> None:
+    options = handey.PlanOptions(sampling_rounds=(3, 50, 700), seed=5)
+    budgets = [with_budget(options, round_) for round_ in range(3)]
+    assert [budget.gross.sampling.max_iterations for budget in budgets] == [3, 50, 700]
+    assert {budget.gross.sampling.seed for budget in budgets} == {5}
+
+
+def test_proofs_that_there_is_no_way_wait_for_the_last_round_of_thorough_planning() -> None:
+    options = handey.PlanOptions(sampling_rounds=(10, 100))
+    first, last = (with_budget(options, round_).gross for round_ in (0, 1))
+    assert first.separation.most_cells == 0 and last.separation.most_cells > 0
+    hasty = replace(options, thorough=False)
+    assert with_budget(hasty, 1).gross.separation.most_cells == 0

@@ -20,7 +20,7 @@ import numpy as np
 if TYPE_CHECKING:
     from handey import _core
 
-__all__ = ["TOUCHING", "Standing", "carried_by", "examine_standing", "stands_stably"]
+__all__ = ["TOUCHING", "Standing", "carried_by", "examine_standing"]
 
 CONTACT_GAP = 6e-4  # of the format: what is this near above a surface stands on it [m]
 DEEPEST_CONTACT = (
@@ -53,11 +53,6 @@ class Standing:
     width: float
     reason: str
     region: np.ndarray = field(default_factory=lambda: np.zeros((0, 2)))
-
-
-def stands_stably(cell: _core.Cell, part: int, X_WP: np.ndarray) -> bool:
-    """True if `part` (index), put at X_WP (4, 4), stays there; see `examine_standing`."""
-    return examine_standing(cell, part, X_WP).stable
 
 
 def examine_standing(

@@ -10,34 +10,12 @@ from handey.motion.way_out import WayOutOptions
 from handey.options import with_fields
 from handey.planning.plan_options import PlanOptions
 
-__all__ = ["by_slides", "quick_options", "with_budget"]
+__all__ = ["by_slides", "with_budget"]
 
 
 def by_slides(direct: DirectOptions) -> DirectOptions:
     """The same without the complete search of approaches, which costs most where there is none."""
     return replace(direct, approach=with_fields(direct.approach, search_levels=0))
-
-
-def quick_options(options: PlanOptions | None = None, deadline: float | None = None) -> PlanOptions:
-    """Of a short try: does a changed cell plan? What needs much searching is given up.
-
-    Args:
-        options: of the whole plan, whose seed and samples are kept.
-        deadline: seconds of wall-clock time; None: as given.
-    """
-    options = options or PlanOptions()
-    regrasp = replace(options.regrasp, samples=options.regrasp.samples[:1], sequences=(10, 4))
-    return replace(
-        options,
-        deadline=options.deadline if deadline is None else deadline,
-        denser=options.denser[:1],
-        sampling_rounds=options.sampling_rounds[:2],
-        most_by_arm=min(options.most_by_arm, 1),
-        thorough=False,
-        regrasp=regrasp,
-        prove=False,
-        diagnosis=False,
-    )
 
 
 def with_budget(options: PlanOptions, round_: int) -> DirectOptions:
