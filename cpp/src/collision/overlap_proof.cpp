@@ -117,14 +117,6 @@ double RelativeMotion::bound(const Vector3d& x, Vector3d* gradient) const {
   return result;
 }
 
-double RelativeMotion::bound_in_ball(const Vector3d& centre, double radius) const {
-  double sum = 0.0;
-  for (int j = cell_begin; j < cell_end; ++j) {
-    sum += axes[j].chord * (axes[j].direction.cross(centre - axes[j].point).norm() + radius);
-  }
-  return sum;
-}
-
 bool overlaps_throughout(const PlacedSolid& a, const PlacedSolid& b, const RelativeMotion& motion,
                          Vector3d& x) {
   const Vector3d centre_a = a.X_RS * a.solid.centre, centre_b = b.X_RS * b.solid.centre;

@@ -29,8 +29,6 @@ struct RelativeMotion {
 
   /// Bound on how far a point at x goes [m]; its gradient if asked for.
   double bound(const Eigen::Vector3d& x, Eigen::Vector3d* gradient) const;
-  /// The greatest bound within a ball.
-  double bound_in_ball(const Eigen::Vector3d& centre, double radius) const;
 };
 
 /// A solid where it is at the centre of the cell.
