@@ -13,8 +13,10 @@ import handey
 from handey import _core
 from handey.check.cell_reader import read_cell
 from handey.check.goals import goal_fault
-from handey.planning.goal_places import is_met, places_for
+from handey.planning import moves
+from handey.planning.goal_places import Places, is_met, places_for
 from handey.resting import Sought
+from handey.task import PlaceAt
 
 ROOT = Path(__file__).resolve().parent.parent
 ROBOT = str(ROOT / "models" / "robots" / "puma560" / "robot.yaml")
@@ -241,6 +243,34 @@ def test_where_no_place_is_free_the_reason_says_so(tmp_path) -> None:
     assert result.plan is None
     reasons = "\n".join(result.report.reasons)
     assert "part inside tray" in reasons and "no place found" in reasons
+
+
+def test_places_are_looked_for_when_asked_for_and_once() -> None:
+    targets = [PlaceAt("part", np.eye(4)) for _ in range(3)]
+    looked_for = []
+
+    def stream():
+        for target in targets:
+            looked_for.append(target)
+            yield target
+
+    places = Places(stream(), Sought())
+    assert places.at(1) is targets[1] and len(looked_for) == 2
+    assert [places.at(number) for number in range(5)] == [*targets, None, None]
+    assert len(looked_for) == 3
+
+
+def test_a_greater_effort_looks_for_no_place_again(tmp_path, monkeypatch) -> None:
+    fixtures = {"tray": tray(0.03, 0.03, 0.02, AT)}
+    asked = []
+    monkeypatch.setattr(
+        moves,
+        "places_for",
+        lambda *args, **more: asked.append(args[0]) or places_for(*args, **more),
+    )
+    options = handey.PlanOptions(advice=False)
+    result = handey.plan(handey.load_cell(write(tmp_path, {"inside": "tray"}, fixtures)), options)
+    assert result.plan is None and len(asked) == 1
 
 
 def test_a_goal_on_a_part_is_no_goal(tmp_path) -> None:

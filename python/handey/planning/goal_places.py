@@ -11,6 +11,7 @@ Article: the task-level command MOVE part TO place.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
@@ -26,7 +27,7 @@ from handey.placement import (
 from handey.resting import Placement, PlacementOptions, Sought, placements, same_rest
 from handey.task import Goal, PlaceAt, PlaceInside, PlaceOn
 
-__all__ = ["is_met", "places_for"]
+__all__ = ["Places", "is_met", "places_for"]
 
 SAME_FACE = np.cos(np.radians(1.0))  # Choice: the tolerance of faces elsewhere
 SAME_REST_FIRST = 8  # Choice: so many placements without turning the part over come first
@@ -106,6 +107,30 @@ def _seen_in(face: _core.SupportFace, points: np.ndarray) -> np.ndarray:
 
 def _spills(hull: np.ndarray, region: _core.Region) -> bool:
     return bool(_core.subtract(_core.Region([hull]), region).area > NO_AREA)
+
+
+@dataclass
+class Places:
+    """Places for a goal from one state: looked for when first asked for, the same ever after.
+
+    Attributes:
+        stream: of them.
+        sought: what became of what was looked at.
+        found: so far.
+    """
+
+    stream: Iterator[PlaceAt]
+    sought: Sought
+    found: list[PlaceAt] = field(default_factory=list)
+
+    def at(self, index: int) -> PlaceAt | None:
+        """The place of this index; None if there are not so many."""
+        while len(self.found) <= index:
+            target = next(self.stream, None)
+            if target is None:
+                return None
+            self.found.append(target)
+        return self.found[index]
 
 
 def places_for(

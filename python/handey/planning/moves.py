@@ -9,7 +9,7 @@ Not guaranteed: a move that exists is found.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -18,7 +18,7 @@ from handey import _core
 from handey.cell_file import CellFile
 from handey.motion.carry import Carry, Workspace
 from handey.motion.stage_clock import StageClock
-from handey.planning.goal_places import places_for
+from handey.planning.goal_places import Places, places_for
 from handey.planning.in_the_way import carries, runs_into
 from handey.planning.places_aside import places_aside
 from handey.planning.plan_options import PlanOptions
@@ -84,6 +84,7 @@ class Mover:
     report: Report
     effort: int = 0
     tries: int = 0
+    _places: dict[tuple[object, ...], Places] = field(default_factory=dict)
 
     def begin(self, effort: int) -> None:
         """Start a pass of the search."""
@@ -108,8 +109,8 @@ class Mover:
             home: where the arm goes after the part was put somewhere; None to stay.
             kept_free: where other parts are to go.
         """
-        report, sought, ways, tried = self.report.goals[index], Sought(), 0, 0
-        for target in self._targets(state.cell, index, kept_free, sought):
+        report, ways, tried = self.report.goals[index], 0, 0
+        for target in self._targets(state.cell, index, kept_free):
             if self.is_spent():
                 return
             tried += 1
@@ -124,6 +125,7 @@ class Mover:
         if tried:
             report.reasons.insert(0, f"{tried} places tried; of the last:")
         else:
+            sought = self._places_of(state.cell, index, kept_free).sought
             text, on = f"no place found: {sought.reason()}", (self._fixture(index),)
             report.fail([Reason("no_place", "found", text, end="destination", bodies=on)])
 
@@ -150,7 +152,7 @@ class Mover:
         for i in absent:
             cell = cell.with_part_at(i, _under(cell.parts[i].X_WB))
         scratch = GoalReport(index, "")
-        for target in self._targets(cell, index, kept_free, Sought()):
+        for target in self._targets(cell, index, kept_free):
             if self.is_spent():
                 return []
             carry = self._plan(state, cell, target, None, scratch, index)
@@ -207,25 +209,38 @@ class Mover:
             self.report.goals[index].note(Reason("in_the_way", "found", text, bodies=(name,)))
 
     def _targets(
-        self, cell: _core.Cell, index: int, kept_free: Sequence[PlaceAt], sought: Sought
+        self, cell: _core.Cell, index: int, kept_free: Sequence[PlaceAt]
     ) -> Iterator[PlaceAt]:
         """Poses for a goal, as many as are tried in this pass."""
-        stream = places_for(
-            self.cell_file.goals[index],
-            cell,
-            self.hands.model,
-            self.hands.solver,
-            self.cell_file.cell,
-            kept_free=kept_free,
-            seed=self.options.seed,
-            sought=sought,
-        )
-        for _ in range(MOST_PLACES[self.effort]):
+        places = self._places_of(cell, index, kept_free)
+        for number in range(MOST_PLACES[self.effort]):
             with self.hands.clock("placements"):
-                target = next(stream, None)
+                target = places.at(number)
             if target is None:
                 return
             yield target
+
+    def _places_of(self, cell: _core.Cell, index: int, kept_free: Sequence[PlaceAt]) -> Places:
+        """They do not depend on the effort, so each pass goes on with those of the pass before."""
+        key = (
+            index,
+            *(part.X_WB.tobytes() for part in cell.parts),
+            *((goal.part, goal.X_WP.tobytes()) for goal in kept_free),
+        )
+        if key not in self._places:
+            sought = Sought()
+            stream = places_for(
+                self.cell_file.goals[index],
+                cell,
+                self.hands.model,
+                self.hands.solver,
+                self.cell_file.cell,
+                kept_free=kept_free,
+                seed=self.options.seed,
+                sought=sought,
+            )
+            self._places[key] = Places(stream, sought)
+        return self._places[key]
 
     def _plan(
         self,
