@@ -160,7 +160,7 @@ void CollisionChecker::Impl::place(const Configuration& configuration) {
   if (!std::isfinite(configuration.opening)) {
     throw InvalidInput("E_NUMBER", "configuration.opening", "is not finite");
   }
-  X_RB = body_poses(*model->robot, configuration);
+  body_poses(*model->robot, configuration, X_RB);
   for (std::size_t m = 0; m < movers.size(); ++m) {
     const Pose& X = X_RB[static_cast<std::size_t>(movers[m].body)];
     X_RM[m] = m < model->robot_bodies.size() ? X : X * movers[m].X_BM;

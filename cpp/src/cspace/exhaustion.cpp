@@ -306,7 +306,10 @@ class Search {
     }
     const double depth = std::max(kLeastDepth, kDepthShare * motion.shift);
     bool all_deep = level >= kJudged;
+    int branch = -1;
     for (const InverseSolution& solution : inverse.solutions) {
+      if (solution.branch == branch) continue;  // the same but for full turns
+      branch = solution.branch;
       const Configuration closed{solution.q, width};
       if (all_deep && is_deep(standing, closed, depth, cause)) continue;
       if (!standing.closed.find_hit(closed, 0.0)) return Verdict::Legal;

@@ -171,6 +171,7 @@ void PoseTester::find_free(End& end, const std::vector<InverseSolution>& solutio
       continue;
     }
     free.obstacle = found;
+    free.met_finger |= found->of_finger;
     if (found->of_hand && free.solutions.empty()) break;
   }
 }
@@ -233,27 +234,31 @@ PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& ta
   PoseVerdict verdict = PoseVerdict::CollidesAtOrigin;
   for (const double opening : openings(pose.width)) {
     pose.opening = opening;
-    // One at the origin will do until it is known that there is one at the destination.
+    // One configuration at either end will do until it is known that there is one at both. Where
+    // the last pose fell, this one often does too.
     Free pick, place;
-    find_free(origin_, at_origin, pose, 1, pick);
-    if (!pick.solutions.empty()) find_free(destination_, at_destination, pose, kAll, place);
-    if (!place.solutions.empty()) {
-      find_free(origin_, at_origin, pose, kAll, pick);
+    const bool at_origin_first = fell_last_ == GraspEnd::Origin;
+    const auto look = [&](bool origin, std::size_t most) {
+      find_free(origin ? origin_ : destination_, origin ? at_origin : at_destination, pose, most,
+                origin ? pick : place);
+      return !(origin ? pick : place).solutions.empty();
+    };
+    if (look(at_origin_first, 1) && look(!at_origin_first, 1)) {
+      look(true, kAll);
+      look(false, kAll);
       pose.q_pick = soonest_first(pick.solutions);
       pose.q_place = soonest_first(place.solutions);
       pose.merit = 0.2 * std::min(best_margin(pick.solutions), best_margin(place.solutions));
       return PoseVerdict::Legal;
     }
-    const bool fell_at_origin = pick.solutions.empty();
-    const std::optional<Obstacle>& obstacle = fell_at_origin ? pick.obstacle : place.obstacle;
+    const bool fell_at_origin = pick.looked_at > 0 && pick.solutions.empty();
+    const Free& fell = fell_at_origin ? pick : place;
+    fell_last_ = fell_at_origin ? GraspEnd::Origin : GraspEnd::Destination;
     verdict = fell_at_origin ? PoseVerdict::CollidesAtOrigin : PoseVerdict::CollidesAtDestination;
-    const bool narrower_helps = obstacle && obstacle->of_finger;
-    if (narrower_helps && opening > openings(pose.width).back() + 1e-6) continue;
-    if (obstacle) {
-      const std::string mover = display_name(obstacle->hit.a), body = display_name(obstacle->hit.b);
-      const GraspEnd end = fell_at_origin ? GraspEnd::Origin : GraspEnd::Destination;
-      tally.add({FallKind::Collision, end, -1, mover, body}, pose, mover + " hits " + body);
-    }
+    if (fell.met_finger && opening > openings(pose.width).back() + 1e-6) continue;
+    const std::string mover = display_name(fell.obstacle->hit.a);
+    const std::string body = display_name(fell.obstacle->hit.b);
+    tally.add({FallKind::Collision, fell_last_, -1, mover, body}, pose, mover + " hits " + body);
     break;
   }
   return verdict;

@@ -68,13 +68,14 @@ class PoseTester {
   };
   struct Obstacle {
     Hit hit;
-    bool of_hand = false;    // the hand itself: no other configuration of the same pose helps
-    bool of_finger = false;  // a narrower opening may help
+    bool of_hand = false;  // the hand itself: no other configuration of the same pose helps
+    bool of_finger = false;
   };
   /// Of the solutions at an end.
   struct Free {
     std::vector<InverseSolution> solutions;  // the legal ones
     std::optional<Obstacle> obstacle;        // of the last that is not
+    bool met_finger = false;                 // of any: a narrower opening may help
     std::size_t looked_at = 0;
     int branch = -1;  // of the last
     bool branch_is_free = false;
@@ -98,6 +99,7 @@ class PoseTester {
   const LegalityOptions& options_;
   std::set<std::string> hand_links_, finger_links_, robot_links_;
   End origin_, destination_;
+  GraspEnd fell_last_ = GraspEnd::Origin;
 };
 
 }  // namespace handey::grasp
