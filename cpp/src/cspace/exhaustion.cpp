@@ -126,11 +126,15 @@ class Search {
       }
     }
     while (!cells.empty()) {
+      if (result.cells_looked_at + cost_ + cells.size() >= options_.most_cells) {
+        give_up(result);  // all of them would have to be looked at
+        return;
+      }
       for (const std::size_t i : spread(cells.size())) {
         throw_if_stopped();
         const auto& [p, cell] = cells[i];
         if (result.cells_looked_at + cost_ >= options_.most_cells) {
-          result.reason = "given up after " + std::to_string(result.cells_looked_at) + " cells";
+          give_up(result);
           return;
         }
         ++result.cells_looked_at;
@@ -157,6 +161,10 @@ class Search {
   std::vector<IllegalCause> causes() const { return tally_.causes(); }
 
  private:
+  static void give_up(Exhaustion& result) {
+    result.reason = "given up after " + std::to_string(result.cells_looked_at) + " cells";
+  }
+
   double width_at(int level) const { return options_.spacing * std::pow(2.0, kJudged - level); }
   double turn_at(int level) const { return options_.turn * std::pow(2.0, kJudged - level); }
 
