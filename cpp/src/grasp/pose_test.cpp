@@ -234,10 +234,10 @@ PoseVerdict PoseTester::test(const FeaturePair& pair, GraspPose& pose, Tally& ta
   PoseVerdict verdict = PoseVerdict::CollidesAtOrigin;
   for (const double opening : openings(pose.width)) {
     pose.opening = opening;
-    // One configuration at either end will do until it is known that there is one at both. Where
-    // the last pose fell, this one often does too.
+    // One configuration at either end will do until it is known that there is one at both. Of
+    // poses spread over a pair this one often falls where the last one fell.
     Free pick, place;
-    const bool at_origin_first = fell_last_ == GraspEnd::Origin;
+    const bool at_origin_first = !options_.spread || fell_last_ == GraspEnd::Origin;
     const auto look = [&](bool origin, std::size_t most) {
       find_free(origin ? origin_ : destination_, origin ? at_origin : at_destination, pose, most,
                 origin ? pick : place);

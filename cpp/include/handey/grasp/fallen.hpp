@@ -1,8 +1,8 @@
 // Why candidate hand poses fell, counted: by the test, the end of the pick-and-place, what met
 // what, and the joint, each with the pose that missed least. A candidate counts where it fell
-// first: tests that cost less come first, the origin before the destination, and of the inverse
-// solutions at an end the last that was looked at. What stands in the way most often need not be
-// the cause; that is diagnosis.
+// first: tests that cost less come first, the origin before the destination (with `spread`, the end
+// where the one before fell), and of the inverse solutions at an end the last that was looked at.
+// What stands in the way most often need not be the cause; that is diagnosis.
 #pragma once
 
 #include <optional>
