@@ -116,6 +116,51 @@ def test_a_grasp_out_of_reach_says_so(cell, model):
     assert "(destination)" in legal.worst_reason
 
 
+def _poses(search: _core.LegalGraspSearch) -> set[tuple[float, float, float, bool, int, int]]:
+    found = []
+    while not search.is_done:
+        found += search.next(200)
+    return {
+        (p.in_plane.x, p.in_plane.y, p.in_plane.theta, p.flipped, len(p.q_pick), len(p.q_place))
+        for p in found
+    }
+
+
+def test_a_search_without_the_blocked_poses_finds_the_same(cell, scene):
+    solver = _core.SphericalWristSolver(cell.robot)
+    options = _core.LegalityOptions(
+        directions=24, spacing=0.008, least_contact_share=0.1, most_poses=10000, spread=True
+    )
+    blocked = _core.BlockedPoses(scene)
+    legal = 0
+    for pair in _core.rank_grasps(cell, 0, GOAL).ranked[:4]:
+        pruned = _core.LegalGraspSearch(scene, solver, pair, options, blocked)
+        poses = _poses(pruned)
+        assert poses == _poses(_core.LegalGraspSearch(scene, solver, pair, options))
+        told = pruned.result()
+        assert sum(fallen.count for fallen in told.fallen) + len(told.poses) == told.tried
+        legal += len(poses)
+    assert legal > 20
+
+
+def test_a_block_names_the_end_and_the_bodies(cell, scene):
+    blocked = _core.BlockedPoses(scene)
+    solver = _core.SphericalWristSolver(cell.robot)
+    named = set()
+    for pair in _core.rank_grasps(cell, 0, GOAL).ranked:
+        for turn in np.arange(0.0, 2 * np.pi, np.pi / 8):
+            pose = _core.PlanarPose(0.0, 0.0, turn)
+            found = blocked.find(pair, pose, False, shift=0.004, half_turn=0.04)
+            if found is None:
+                continue
+            named.add((found.end, found.body))
+            assert not _core.test_grasp_pose(scene, solver, pair, pose, False).poses
+    assert (_core.GraspEnd.Origin, "table") in named
+    assert {end for end, _ in named} == {_core.GraspEnd.Origin, _core.GraspEnd.Destination}
+    with pytest.raises(InvalidInput, match="shift"):
+        blocked.find(pair, pose, False, shift=float("nan"))
+
+
 def test_unknown_options_and_wrong_types_are_type_errors(cell):
     with pytest.raises(TypeError):
         _core.RankingOptions(clearence=0.1)
