@@ -187,7 +187,7 @@ Raises:
       .def_readonly("centroid", &SurfaceReport::centroid, "Of the solid, uniform density (3,) [m].")
       .def_readonly("lower", &SurfaceReport::lower, "Bounding box (3,) [m].")
       .def_readonly("upper", &SurfaceReport::upper, "Bounding box (3,) [m].");
-  m.def("inspect_surface", &inspect_surface, py::arg("mesh"),
+  m.def("inspect_surface", &inspect_surface, py::arg("mesh"), Unlocked(),
         "What a mesh's surface is: closed, volume, box.");
   m.def(
       "contains_point",
@@ -195,9 +195,9 @@ Raises:
         return contains_point(mesh, real_vector<3>(point, "point"));
       },
       py::arg("mesh"), py::arg("point"), "True if the point (3,) [m] is inside the solid.");
-  m.def("connected_components", &connected_components, py::arg("mesh"),
+  m.def("connected_components", &connected_components, py::arg("mesh"), Unlocked(),
         "The pieces of a mesh that share no edge.");
-  m.def("is_convex", &is_convex, py::arg("mesh"), py::arg("tolerance") = 1e-6,
+  m.def("is_convex", &is_convex, py::arg("mesh"), py::arg("tolerance") = 1e-6, Unlocked(),
         "True if a mesh is a closed convex solid to `tolerance` [m].");
   m.def(
       "convex_hull",

@@ -64,7 +64,7 @@ Args:
       .def_readonly("density", &Body::density, "[kg/m3] or None.")
       .def_readonly("may_move", &Body::may_move)
       .def("__repr__", [](const Body& self) { return "Body('" + self.name + "')"; });
-  m.def("centre_of_mass", &centre_of_mass, py::arg("body"),
+  m.def("centre_of_mass", &centre_of_mass, py::arg("body"), Unlocked(),
         "Centre of mass in the body frame, uniform density, (3,) [m].");
 }
 

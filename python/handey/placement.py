@@ -33,7 +33,7 @@ STEEPEST = (
 )
 LEVEL = np.cos(np.radians(1.0))  # least of a horizontal face. Choice: the tolerance of faces
 SEGMENTS = 128  # Choice: sides of a round shape; a 50 mm radius is met within 0.02 mm
-PAIRS_AT_ONCE = 20_000  # bounds the memory of one pass to some 50 MB
+PAIRS_AT_ONCE = 4000  # bounds one pass to some 10 MB and 30 ms
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,7 @@ def examine_standing(
 
     body = cell.parts[part]
     centre = (X_WP @ np.append(_core.centre_of_mass(body), 1.0))[:3]
+    _core.throw_if_stopped()
     downward = _facing(_triangles(body, X_WP), up=False)
     held = None if cell.held is None else cell.held.part
     points, on = [], []
@@ -89,7 +90,9 @@ def examine_standing(
             on.append(name)
     if not points:
         return Standing(False, (), 0.0, f"nothing is within {CONTACT_GAP * 1e3:g} mm below it")
+    _core.throw_if_stopped()
     hull = convex_hull(np.concatenate(points))
+    _core.throw_if_stopped()
     width = least_width(hull)
     if width < LEAST_WIDTH - 1e-9:
         reason = f"it would stand on a region {width * 1e3:.2f} mm wide; 2 mm are needed"
@@ -174,17 +177,21 @@ def contact_points(downward: np.ndarray, upward: np.ndarray) -> np.ndarray:
     Returns:
         Points (k, 2) [m]; their convex hull is that of the regions.
     """
+    from handey import _core
+
     if not len(downward) or not len(upward):
         return np.zeros((0, 2))
     upward = upward[_boxes_meet(upward, downward.min(axis=(0, 1)), downward.max(axis=(0, 1)))]
     found = [np.zeros((0, 2))]
     rows = max(1, PAIRS_AT_ONCE * 100 // max(1, len(upward)))
     for start in range(0, len(downward), rows):
+        _core.throw_if_stopped()
         some = downward[start : start + rows]
         lower, higher = some.min(axis=1), some.max(axis=1)
         meet = _boxes_meet(upward[None], lower[:, None], higher[:, None])
         i, j = np.nonzero(meet)
         for first in range(0, len(i), PAIRS_AT_ONCE):
+            _core.throw_if_stopped()
             chosen = slice(first, first + PAIRS_AT_ONCE)
             found.append(_cut(some[i[chosen]], upward[j[chosen]]))
     return np.concatenate(found)

@@ -90,6 +90,7 @@ std::vector<Place> places_of(const RankedPair& pair, const Gripper& gripper,
   if (lattice.spacing <= 0.0) return places;
   const double round = 0.5 * std::max(gripper.pad_length, gripper.pad_width);
   for (int row = -lattice.rows; row <= lattice.rows; ++row) {
+    throw_if_stopped();
     for (int column = -lattice.columns; column <= lattice.columns; ++column) {
       const Eigen::Vector2d point = lattice.centre + lattice.spacing * Eigen::Vector2d(column, row);
       if ((nearest_point(pair.unobstructed, point) - point).norm() > round) continue;
@@ -196,6 +197,7 @@ CandidateMaker::CandidateMaker(const RankedPair& pair, const Robot& robot,
       hold_(hold),
       room_(pair, robot),
       directions_(approach_directions(pair, options.directions)) {
+  throw_if_stopped();
   for (const double theta : directions_) along_edge_.push_back(is_along_edge(pair, theta) ? 1 : 0);
   lattice_ = lattice_over(pair, gripper_, options.spacing);
   places_ = places_of(pair, gripper_, lattice_);

@@ -31,8 +31,8 @@ struct Candidate {
   LatticePoint point;    ///< where on the lattice, if it is
 };
 
-struct CandidateList {
-  std::vector<Candidate> candidates;  ///< most promising first
+/// Why places and directions have no candidates.
+struct NoCandidates {
   int too_little_contact = 0;  ///< target and direction where the pad at the target has too little
   int would_turn = 0;          ///< where there is contact, but the part's weight would turn it
   std::string turn_reason;     ///< of the one that misses least
@@ -40,6 +40,10 @@ struct CandidateList {
   double most_contact = -1.0;  ///< that it has [m2]
   PlanarPose turning;          ///< the one that misses least
   double least_excess = 0.0;   ///< by which it does [m]
+};
+
+struct CandidateList : NoCandidates {
+  std::vector<Candidate> candidates;  ///< most promising first
 };
 
 /// Where the middle of the pads may be.

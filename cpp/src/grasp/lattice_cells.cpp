@@ -19,8 +19,10 @@ const PoseBlock* LatticeCells::find(const LatticePoint& point, bool flipped) {
     const int shift = kLevels - 1 - level;
     const std::uint64_t key = ((column >> shift) << 40) | ((row >> shift) << 16) |
                               ((turn >> shift) << 1) | (flipped ? 1U : 0U);
-    const auto [known, is_new] = known_[level].try_emplace(key);
-    if (is_new) known->second = look(point, flipped, 1 << shift);
+    auto known = known_[level].find(key);
+    if (known == known_[level].end()) {
+      known = known_[level].emplace(key, look(point, flipped, 1 << shift)).first;
+    }
     if (known->second) return &*known->second;
   }
   return nullptr;

@@ -2,6 +2,7 @@
 #include "handey/grasp/legality.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -136,28 +137,46 @@ struct LegalGraspSearch::Impl {
   }
 
   bool is_done() const {
-    return (slot == maker.slots() && at == list.candidates.size()) ||
+    return (slot == maker.slots() && at == list.candidates.size() && in_hand.empty()) ||
            static_cast<int>(result.poses.size()) >= options.most_poses;
   }
 
-  // The next candidates: of those that are made already, or of a slot.
+  // The next candidates. What is thrown on the way leaves all as if the pose that was being tested,
+  // or the slot that was being made, had not been begun.
   void look() {
+    if (in_hand.empty()) take();
+    for (; !in_hand.empty(); in_hand.pop_back(), flipped = false) {
+      if (!flipped) test(in_hand.back(), false);
+      flipped = true;
+      test(in_hand.back(), true);
+    }
+  }
+
+  // Of those that are made already, or of a slot.
+  void take() {
     if (slot == maker.slots()) {
-      test(list.candidates[at++]);
+      in_hand.push_back(list.candidates[at++]);
       return;
     }
-    const int contact = list.too_little_contact, turn = list.would_turn;
+    const grasp::NoCandidates before = list;
     const std::size_t first = list.candidates.size();
-    // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
-    maker.make(slot++ * stride() % maker.slots(), list);
-    count_fallen(contact, turn);
+    try {
+      // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+      maker.make(slot * stride() % maker.slots(), list);
+    } catch (...) {
+      static_cast<grasp::NoCandidates&>(list) = before;
+      list.candidates.resize(first);
+      throw;
+    }
+    ++slot;
+    count_fallen(before.too_little_contact, before.would_turn);
     // What seems blocked waits in the list until the end.
     const auto waiting = std::stable_partition(
         list.candidates.begin() + static_cast<std::ptrdiff_t>(first), list.candidates.end(),
         [](const grasp::Candidate& candidate) { return candidate.promise < 0.0; });
-    const std::vector<grasp::Candidate> now(waiting, list.candidates.end());
+    in_hand.assign(std::make_reverse_iterator(list.candidates.end()),
+                   std::make_reverse_iterator(waiting));
     list.candidates.erase(waiting, list.candidates.end());
-    for (const grasp::Candidate& candidate : now) test(candidate);
   }
 
   // About the golden ratio of the slots, with no divisor in common with their number.
@@ -189,31 +208,28 @@ struct LegalGraspSearch::Impl {
 
   GraspPose posed(const PlanarPose& in_plane) const { return hand_pose_of(pair, in_plane); }
 
-  void test(const grasp::Candidate& candidate) {
-    for (const bool flipped : {false, true}) test(candidate, flipped);
-  }
-
-  void test(const grasp::Candidate& candidate, bool flipped) {
+  void test(const grasp::Candidate& candidate, bool is_flipped) {
     if (static_cast<int>(result.poses.size()) >= options.most_poses) return;
     // Legal already, less drawn back.
-    if (found.count({candidate.group, flipped}) != 0) return;
+    if (found.count({candidate.group, is_flipped}) != 0) return;
     GraspPose pose;
     pose.in_plane = candidate.pose;
-    pose.flipped = flipped;
+    pose.flipped = is_flipped;
     pose.contact_area = candidate.contact_area;
-    ++result.tried;
     if (cells) {
-      if (const PoseBlock* block = cells->find(candidate.point, flipped)) {
+      if (const PoseBlock* block = cells->find(candidate.point, is_flipped)) {
+        ++result.tried;
         count_blocked(*block, pose);
         return;
       }
     }
     const grasp::PoseVerdict verdict = tester.test(pair.pair, pose, tally);
+    ++result.tried;
     count(result, verdict);
     if (verdict != grasp::PoseVerdict::Legal) return;
     pose.merit += grasp::planar_merit(pair, scene.cell.robot->gripper, pose.in_plane,
                                       pose.contact_area, candidate.along_edge, down, demand);
-    found.insert({candidate.group, flipped});
+    found.insert({candidate.group, is_flipped});
     result.poses.push_back(std::move(pose));
   }
 
@@ -234,7 +250,10 @@ struct LegalGraspSearch::Impl {
   std::size_t slot = 0;  ///< slots looked at, in their mixed order
   /// Candidates to test: all, or with `spread` those of the slots looked at that seem blocked.
   grasp::CandidateList list;
-  std::size_t at = 0;  ///< candidates of the list that are tested
+  std::size_t at = 0;                     ///< candidates of the list that are tested
+  std::vector<grasp::Candidate> in_hand;  ///< taken from either and not tested yet; the next last
+  bool flipped = false;                   ///< the next one is tested as it is, not yet flipped
+  std::size_t told = 0;                   ///< poses that `next` has returned
   std::shared_ptr<BlockedPoses> blocked;
   std::optional<grasp::LatticeCells> cells;
   grasp::PoseTester tester;
@@ -257,12 +276,12 @@ bool LegalGraspSearch::is_done() const { return impl_->is_done(); }
 
 std::vector<GraspPose> LegalGraspSearch::next(int candidates) {
   grasp::require_in_range(candidates, 1, std::numeric_limits<int>::max(), "candidates");
-  const std::size_t known = impl_->result.poses.size();
   for (int i = 0; i < candidates && !impl_->is_done(); ++i) {
     throw_if_stopped();
     impl_->look();
   }
-  const auto fresh = impl_->result.poses.begin() + static_cast<std::ptrdiff_t>(known);
+  const auto fresh = impl_->result.poses.begin() + static_cast<std::ptrdiff_t>(impl_->told);
+  impl_->told = impl_->result.poses.size();
   return best_first({fresh, impl_->result.poses.end()});
 }
 

@@ -112,10 +112,10 @@ std::vector<PartGrasp> sample_part_grasps(const Body& part,
                                                              demand, hold, options.legality);
     std::map<int, std::set<int>> in_bin;
     for (const grasp::Candidate& candidate : list.candidates) {
+      throw_if_stopped();
       std::set<int>& groups = in_bin[bin_of(candidate.pose.theta)];
       if (groups.size() >= groups_per_bin && groups.count(candidate.group) == 0) continue;
       for (const bool flipped : {false, true}) {
-        throw_if_stopped();
         PartGrasp grasp;
         grasp.a = pair.pair.a;
         grasp.b = pair.pair.b;
@@ -145,6 +145,7 @@ std::vector<char> clears_plane(const std::shared_ptr<const Robot>& robot,
   double opening = -1.0;
   std::vector<Eigen::Vector3d> points;
   for (const PartGrasp& grasp : grasps) {
+    throw_if_stopped();
     const double wanted = opening_of(robot->gripper, grasp.width, options);
     if (std::abs(wanted - opening) > 1e-9) points = hand_points(*robot, opening = wanted);
     const Pose X_SH = X_SP * grasp.X_PH;

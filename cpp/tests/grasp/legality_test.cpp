@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <set>
@@ -14,6 +15,7 @@
 
 #include "../kinematics/puma.hpp"
 #include "handey/errors.hpp"
+#include "handey/stop.hpp"
 #include "parts.hpp"
 
 namespace handey {
@@ -134,6 +136,46 @@ TEST(LegalGraspSearch, FindsInPortionsWhatIsFoundAtOnce) {
     EXPECT_EQ(keys(found), keys(at_once.poses));
     EXPECT_EQ(search.result().tried, at_once.tried);
     EXPECT_EQ(search.result().worst_reason, at_once.worst_reason);
+  }
+}
+
+TEST(LegalGraspSearch, GoesOnWhereItWasStopped) {
+  const GraspScene scene = make_scene(block_on_table(), translation(0.45, -0.25, 0.025));
+  const SphericalWristSolver solver(*puma());
+  const RankedPair pair = rank_grasps(scene.cell, 0, scene.X_WP_goal).ranked.at(0);
+  for (const bool spread : {false, true}) {
+    LegalityOptions options;
+    options.most_poses = 100000;
+    options.spread = spread;
+    LegalGraspSearch search(scene, solver, pair, options);
+    std::vector<GraspPose> found;
+    int stops = 0, looks = 0;
+    while (!search.is_done()) {
+      CancelToken token;
+      StopHooks hooks;
+      hooks.between_polls = std::chrono::milliseconds(0);
+      int left = 1 + 37 * stops % 211;  // never the same place of the loop
+      hooks.poll = [&] {
+        ++looks;
+        if (--left == 0) token.cancel();
+      };
+      const StopScope scope(token, hooks);
+      try {
+        for (const GraspPose& pose : search.next(50)) found.push_back(pose);
+      } catch (const Stopped&) {
+        ++stops;
+      }
+    }
+    const LegalGrasps at_once = find_legal_grasps(scene, solver, pair, options);
+    const LegalGrasps result = search.result();
+    EXPECT_GT(stops, 20) << looks;
+    EXPECT_EQ(keys(found), keys(at_once.poses));
+    EXPECT_EQ(keys(result.poses), keys(at_once.poses));
+    EXPECT_EQ(found.size(), at_once.poses.size()) << "none is told twice";
+    EXPECT_EQ(result.tried, at_once.tried);
+    EXPECT_EQ(result.collides_at_origin, at_once.collides_at_origin);
+    EXPECT_EQ(result.too_little_contact, at_once.too_little_contact);
+    EXPECT_EQ(result.worst_reason, at_once.worst_reason);
   }
 }
 

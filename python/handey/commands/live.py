@@ -74,6 +74,8 @@ class _Work:
         version, name = self.server.next_version(), Path(self.options.cell).name
         try:
             page, told = self._look(version)
+        except KeyboardInterrupt:  # stopped while the files were read
+            return
         except InvalidInput as error:
             faults = [str(fault) for fault in error.faults]
             page, told = words_page(name, "This cannot be read:", faults, version), faults

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from handey._core import CancelToken
-from handey.commands.ending import DeadlinePassedError, within
+from handey.commands.ending import DeadlinePassedError
 from handey.commands.plan import plan_and_check
 from handey.commands.terminal import ProgressLine, complain
 from handey.errors import InvalidInput
@@ -57,10 +57,7 @@ def look(options: argparse.Namespace, cancel: CancelToken) -> Seen:
     start, line = time.monotonic(), ProgressLine(options)
     seen = Seen()
     try:
-        work = within(
-            options.deadline, lambda: plan_and_check(options, start, cancel, line), cancel
-        )
-        _, result, checked = work
+        _, result, checked = plan_and_check(options, start, cancel, line)
         seen.report = result.report
         seen.plan = None if result.plan is None else json.loads(result.plan.to_json())
         if checked is not None and not checked.ok:

@@ -51,9 +51,8 @@ def plan_command(options: argparse.Namespace) -> int:
         require_writable(options.report)
         keep_inputs([options.cell, str(output)], Path(options.report))
     cancel, line = CancelToken(), ProgressLine(options)
-    left = None if options.deadline is None else options.deadline - (time.monotonic() - start)
     try:
-        work = within(left, lambda: plan_and_check(options, start, cancel, line), cancel)
+        work = plan_and_check(options, start, cancel, line)
     except DeadlinePassedError:
         line.end()
         _write_report(options, Path(options.cell).stem, {"deadline_passed": True})
@@ -101,23 +100,51 @@ def _where_to_see(options: argparse.Namespace) -> str:
 def plan_and_check(
     options: argparse.Namespace, start: float, cancel: CancelToken, line: ProgressLine
 ) -> tuple[CellFile, PlanResult, CheckReport | None]:
-    """Reads the cell, plans its task and checks the plan; the check is None without one."""
-    from handey.cell_file import load_cell
+    """Reads the cell, plans its task and checks the plan; the check is None without one.
 
-    cell = load_cell(options.cell)
+    Raises:
+        DeadlinePassedError: if there is not even a report in time.
+        KeyboardInterrupt: on Ctrl-C while there is none yet, or while the plan is checked.
+    """
+    cell, result = within(
+        _left(options, start), lambda: _read_and_plan(options, start, cancel, line), cancel
+    )
+    checked = None
+    if result.plan is not None and not cancel.cancelled:
+        line.show("check")
+        plan = result.plan
+        # A check has no report so far: on Ctrl-C it is not waited for.
+        checked = within(_left(options, start), lambda: handey.check(options.cell, plan))
+    return cell, result, checked
+
+
+def _left(options: argparse.Namespace, start: float) -> float | None:
+    """Until the deadline [s]."""
+    return None if options.deadline is None else options.deadline - (time.monotonic() - start)
+
+
+def _read_and_plan(
+    options: argparse.Namespace, start: float, cancel: CancelToken, line: ProgressLine
+) -> tuple[CellFile, PlanResult]:
+    from handey import _core
+    from handey.cell_file import load_cell
+    from handey.errors import Stopped
+
+    left = _left(options, start)
+    if left is not None and left <= 0:
+        raise DeadlinePassedError
+    try:
+        cell = _core.run_within(lambda: load_cell(options.cell), cancel=cancel, deadline=left)
+    except Stopped as stopped:
+        raise (DeadlinePassedError if stopped.cause == "deadline" else KeyboardInterrupt) from None
     warn(options, cell.warnings)
     from handey import planner
 
-    left = None
-    if options.deadline is not None:
-        left = options.deadline - (time.monotonic() - start)
+    left = _left(options, start)
+    if left is not None:
         left -= min(TIME_TO_TELL, 0.1 * left)
         if left <= 0:
             raise DeadlinePassedError
     wanted = planner.PlanOptions(seed=options.seed, deadline=left, advice=not options.no_advice)
     result = planner.plan(cell, wanted, cancel=cancel, progress=line.show if line.shown else None)
-    checked = None
-    if result.plan is not None and not cancel.cancelled:
-        line.show("check")
-        checked = handey.check(options.cell, result.plan)
-    return cell, result, checked
+    return cell, result

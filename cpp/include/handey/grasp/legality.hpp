@@ -104,7 +104,8 @@ class LegalGraspSearch {
   bool is_done() const;
   /// Looks at so many candidates more, at most, each with both half-turns of the hand. With
   /// `spread`, at so many places and directions.
-  /// @return the legal ones of these, best merit first
+  /// @return the legal ones of these, best merit first; with those of a call that was stopped
+  /// before: after Stopped the search goes on where it was
   std::vector<GraspPose> next(int candidates);
   /// What came of all candidates so far.
   LegalGrasps result() const;
