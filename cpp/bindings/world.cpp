@@ -9,6 +9,7 @@
 #include "handey/kinematics/arm.hpp"
 #include "handey/world/body.hpp"
 #include "handey/world/cell.hpp"
+#include "interruptible.hpp"
 
 namespace py = pybind11;
 
