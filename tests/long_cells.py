@@ -130,9 +130,7 @@ def _caged(_: Path) -> dict[str, Any]:
 
 FREE = handey.PlanOptions(prove=False, diagnosis=False, advice=False)
 DENSE = _core.LegalityOptions(directions=720, spacing=0.001, least_contact_share=0.05)
-SPREAD = _core.LegalityOptions(
-    directions=360, spacing=0.001, least_contact_share=0.05, spread=True
-)
+SPREAD = _core.LegalityOptions(directions=360, spacing=0.001, least_contact_share=0.05, spread=True)
 
 
 def _wide_search() -> handey.PlanOptions:

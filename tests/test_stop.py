@@ -26,7 +26,7 @@ from handey.errors import Stopped
 SOON = 5.0  # generous: other work may be going on [s]
 NAMES = [*hard_cells.CELLS]
 # Where even the report comes too late.
-WHY_LATE = "handey: parted.yaml: the deadline of 3 s passed"
+WHY_LATE = "handey: parted.yaml: the deadline of 1.5 s passed"
 
 
 @pytest.fixture(scope="module")
@@ -276,7 +276,7 @@ def test_ctrl_c_on_the_command_line_tells_the_report_so_far(folder, cells):
 
 
 def test_progress_is_shown_on_a_terminal_and_wiped(folder, cells):
-    arguments = ["plan", "parted.yaml", "--deadline", "1", "-o", "none.json"]
+    arguments = ["plan", "parted.yaml", "--deadline", "1.5", "-o", "none.json"]
     status, _, shown = run_on_terminal(arguments, None, folder)
     assert status == 124
     assert re.search(r"\r\x1b\[K\w[\w ]*: goal 0, grasp \d+ of \d+", shown)
