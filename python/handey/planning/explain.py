@@ -19,8 +19,9 @@ __all__ = ["diagnose", "explain"]
 
 
 MOST_WHEN_STOPPED = 2  # Choice: grasps that are looked round when the time is up
-# Where hand poses fall by these, the arm is often walled off too, by what it meets on the way.
-ENDS_WAYS = ("joint_limit", "out_of_reach")
+# Where hand poses fall by these, by as much at least, the arm is often walled off too, by what it
+# meets on the way [rad], [m]. Choice: what falls by less is found legal by a denser look.
+ENDS_WAYS = {"joint_limit": 0.01, "out_of_reach": 0.001}
 NEAREST = 8000  # Choice: hand poses among which the nearest miss is looked for
 
 
@@ -77,11 +78,9 @@ def _explain(goal: GoalReport) -> None:
 def _of_both(proof: Reason | None, found: Reason | None, proved: bool) -> Reason | None:
     """The cause by a proof, which knows a bound for all hand poses, or what the nearest misses."""
     if proof is not None and found is not None and proof.stage == "connected":
-        is_deeper = found.kind in ENDS_WAYS and found.end == proof.end
-    else:
-        is_deeper = False
-    if is_deeper:
-        return found  # that the arm does not come there follows from it
+        least = ENDS_WAYS.get(found.kind)
+        if found.end == proof.end and least is not None and (found.by or 0.0) >= least:
+            return found  # that the arm does not come there follows from it
     if found is None or (proof is not None and (proof.kind, proof.end) != (found.kind, found.end)):
         return proof
     return replace(found, proved=True) if proved else found
