@@ -67,8 +67,8 @@ class PlanOptions:
     denser: tuple[_core.LegalityOptions, ...] = field(default_factory=_denser)
     direct: DirectOptions = field(default_factory=DirectOptions)
     poses_per_round: int = 4
-    sampling_rounds: tuple[int, ...] = (50, 150, 500, 4000)
-    most_by_arm: int = 4
+    sampling_rounds: tuple[int, ...] = (50, 150, 500, 2000)
+    most_by_arm: int = 2
     thorough: bool = True
     regrasp: RegraspOptions = field(default_factory=RegraspOptions)
     prove: bool = True

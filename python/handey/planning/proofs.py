@@ -30,7 +30,7 @@ __all__ = ["Proof", "Proofs", "Proved"]
 
 ENDS = ("origin", "destination")
 MOST_CAUSES = 4  # Choice: that are told of illegal hand poses
-MOST_CELLS = 20000  # Choice: of the first three joints, looked at for a wall: 0.2 s
+MOST_CELLS = 12000  # Choice: of the first three joints, looked at for a wall: 0.1 s
 FAR_AWAY = 50.0  # under the cell, out of the way [m]
 
 

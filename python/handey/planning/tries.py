@@ -31,6 +31,7 @@ __all__ = ["Tries", "planned"]
 # motions may fall in one pass; that get each greater budget; that are approached by search.
 MOST_FALLEN = 8
 MOST_IN_ALL = 16  # the same in all passes
+MOST_ALIKE = 8  # the same, where what first met what is the same of all of them
 MOST_CAUGHT = (10, 3)  # that get each greater budget before all have had the least
 MOST_AGAIN = (6, 3, 1)
 MOST_SEARCHED = 5
@@ -79,6 +80,7 @@ class Tries:
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
         unconnected: grasps that fell at a gross motion.
+        met: at what first: the motion, and the two bodies.
         caught: by round, how many got its budget before all had had the least.
     """
 
@@ -92,6 +94,7 @@ class Tries:
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
     unconnected: int = 0
+    met: set[tuple[str, str, str]] = field(default_factory=set)
     caught: dict[int, int] = field(default_factory=dict)
 
     def regrasps_worth(self, round_: int) -> int | None:
@@ -110,8 +113,9 @@ class Tries:
         Every grasp is tried with up to two configurations of the arm.
         """
         stop_at = min(self.unconnected + MOST_FALLEN, MOST_IN_ALL)
-        for pair, aim in grasps:
-            if self.unconnected >= stop_at:
+        while self.unconnected < stop_at and not self._are_alike():
+            pair, aim = next(grasps, (None, None))
+            if pair is None or aim is None:
                 return None
             self.grasps += 1
             found = self.report.counts.get("legal grasp poses", self.grasps)
@@ -155,6 +159,10 @@ class Tries:
             if carry is not None:
                 return carry
         return None
+
+    def _are_alike(self) -> bool:
+        """Have enough grasps fallen at the same, whatever the grasp?"""
+        return self.unconnected >= MOST_ALIKE and len(self.met) == 1
 
     def _announce(self, what: str) -> None:
         self.work.clock.trying = f"goal {self.report.goal}, {what}"
@@ -249,9 +257,11 @@ class Tries:
         self.report.attempts.append(Attempt(attempt.name, carry.stage, carry.reason))
         if carry.stage == "done":
             return planned(self.report, attempt.name, carry)
-        self.unconnected += attempt.falls == 0
-        if self.unconnected == WAITING and not attempt.falls:
-            self.work.give_up(True)
+        if not attempt.falls:
+            self.unconnected += 1
+            self.met |= {(carry.stage, hit.a, hit.b) for hit in carry.met()[:1]}
+            if self.unconnected == WAITING:
+                self.work.give_up(True)
         attempt.falls += 1
         if round_ + 1 < len(self.options.sampling_rounds):
             self.waiting.setdefault(round_ + 1, []).append(attempt)
