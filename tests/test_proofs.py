@@ -215,7 +215,7 @@ def test_a_part_shut_in_is_proved_so_by_name(end: str, tmp_path: Path) -> None:
     file = handey.load_cell(path)
     model = _core.make_collision_model(file.cell)
     proofs = Proofs(file, model, _core.SphericalWristSolver(file.cell.robot))
-    proof = proofs.no_way(0)
+    proof = proofs.shut_in(0)
     assert proof is not None and proof.cause is not None and proof.cause.proved
     assert (proof.cause.kind, proof.cause.end) == ("transfer", end)
     assert proof.cause.bodies[0] == "cage" and "ball of 40.0 mm" in proof.text

@@ -58,6 +58,8 @@ class Workspace:
         given: how often each planner gave a motion near obstacles, by (action, planner).
         give_up: called where the first tries fail, told whether grasps were legal; raises if it is
             proved that all must fail.
+        give_part_up: called where motions with the part in the hand fail; raises if it is proved
+            that it does not come to its goal.
     """
 
     model: _core.CollisionModel
@@ -69,6 +71,7 @@ class Workspace:
     table: Callable[[], _core.ArmTable | None] = lambda: None
     given: Counter[tuple[str, str]] = field(default_factory=Counter)
     give_up: Callable[[bool], None] = lambda _: None
+    give_part_up: Callable[[], None] = lambda: None
 
 
 @dataclass(frozen=True)

@@ -260,7 +260,11 @@ class Mover:
             hands.model, scene, hands.solver, state.current, home, hands.clock, hands.table
         )
         if index is not None:
-            work = replace(work, give_up=lambda legal: self._give_up(index, legal))
+            work = replace(
+                work,
+                give_up=lambda legal: self._give_up(index, legal),
+                give_part_up=lambda: self._give_part_up(index),
+            )
         carry = hands.plan_goal(work, self._options(), report)
         for (action, planner), count in work.given.items():
             counts = self.report.planners.setdefault(action, {})
@@ -274,6 +278,16 @@ class Mover:
             return
         with self.hands.clock("proofs"):
             proof = proofs.no_way(index) if legal else proofs.no_grasp(index)
+        if proof is not None:
+            raise Proved(index, proof)
+
+    def _give_part_up(self, index: int) -> None:
+        """Raise if it is proved that the part of a goal does not come to it, whoever carries it."""
+        proofs = self.hands.proofs
+        if proofs is None:
+            return
+        with self.hands.clock("proofs"):
+            proof = proofs.shut_in(index)
         if proof is not None:
             raise Proved(index, proof)
 

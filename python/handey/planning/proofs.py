@@ -86,7 +86,7 @@ class Proofs:
         """All that can be proved of a goal."""
         if not self._must_move(index):
             return []
-        found = (self.no_grasp(index), self.no_way(index))
+        found = (self.no_grasp(index), self.shut_in(index), self.no_way(index))
         return [*self._plain(index), *(proof for proof in found if proof is not None)]
 
     def _plain(self, index: int) -> list[Proof]:
@@ -128,12 +128,9 @@ class Proofs:
         return None
 
     def no_way(self, index: int) -> Proof | None:
-        """The part does not come to its goal; the arm does not come to where it must be held."""
+        """The arm does not come to where the part must be held to reach a goal."""
         if not self._must_move(index):
             return None
-        shut = self.shut_in(index)
-        if shut is not None:
-            return shut
         cell, name = self.cell_file.cell, self.cell_file.goals[index].part
         for end, X_WP in self.ends(index):
             key = (name, X_WP.tobytes())

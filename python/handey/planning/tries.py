@@ -260,6 +260,8 @@ class Tries:
         if not attempt.falls:
             self.unconnected += 1
             self.met |= {(carry.stage, hit.a, hit.b) for hit in carry.met()[:1]}
+            if carry.stage == "transfer":
+                self.work.give_part_up()
             if self.unconnected == WAITING:
                 self.work.give_up(True)
         attempt.falls += 1
