@@ -42,7 +42,10 @@ def no_plan_lines(cell: CellFile, result: PlanResult, verbose: bool) -> list[str
     """Why there is no plan."""
     lines = [f"{cell.name}: no plan found ({result.report.verdict})"]
     lines += [f"  {reason}" for reason in result.report.reasons]
-    lines += [f"  advice: {goal.advice.text}" for goal in result.report.goals if goal.advice]
+    advised = [f"  advice: {goal.advice.text}" for goal in result.report.goals if goal.advice]
+    if not advised and "advice" in result.report.stages:
+        advised = ["  advice: no single change was found in time with which it plans"]
+    lines += advised
     lines += _planner_lines(result.report)
     return lines + (_attempts(result) if verbose else [])
 

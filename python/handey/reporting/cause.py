@@ -23,6 +23,7 @@ __all__ = ["find_cause", "is_by_nearest", "with_depths"]
 SHIFT, TURN = 0.1, 0.6
 PART = 6.0  # Choice: a part is more easily moved than a fixture
 CARRYING = 0.05  # Choice: as much less does what the part stands on explain
+MOST_OTHERS = 3  # Choice: bodies that are named beside the first
 SMALL_SHARE = 0.03  # Choice: of the hand poses; less does not explain why no regrasp was found
 
 
@@ -84,13 +85,32 @@ def _of_diagnosis(
     if cause.kind in ("too_wide", "slips"):  # the funnel has their numbers
         told = [r for stage in stages.values() for r in stage.reasons if r.kind == cause.kind]
         return next(iter(told), cause)
-    share = f"is in the way of {best.met} of {diagnosis.looked_at} hand poses"
+    share = f"it is in the way of {best.met} of {diagnosis.looked_at} hand poses"
     if best.alone:
-        share = f"alone keeps {best.alone} of {diagnosis.looked_at} hand poses from being legal"
-    cause = replace(cause, text=f"{cause.text}; it {share}")
+        share = f"it alone keeps {best.alone} of {diagnosis.looked_at} hand poses from being legal"
+    others = [] if best.alone else _others(best, diagnosis, looked)
+    if others:
+        share += f", and {', '.join(others)} of others"
+        cause = replace(cause, bodies=(*cause.bodies, *others))
+    cause = replace(cause, text=f"{cause.text}; {share}")
     if cause.kind == "collision" and not stages["unobstructed"].passed:
         return replace(cause, kind="obstructed", stage="unobstructed", by=None)
     return cause
+
+
+def _others(best: _core.GraspObstacle, diagnosis: _core.Diagnosis, looked: Funnel) -> list[str]:
+    """Bodies of the cell that are in the way beside one that is so nowhere alone."""
+    same = [
+        it
+        for it in diagnosis.obstacles
+        if it.kind == best.kind == _core.FallKind.Collision
+        and it.end == best.end
+        and not it.carries
+        and it.body != best.body
+        and it.body not in looked.names.links
+    ]
+    same.sort(key=lambda it: -it.in_fewest)
+    return list(dict.fromkeys(it.body for it in same))[:MOST_OTHERS]
 
 
 def is_by_nearest(diagnosis: _core.Diagnosis, looked: Funnel) -> bool:

@@ -27,7 +27,7 @@ def failure_lines(goal: GoalReport) -> list[str]:
     lines = _wrapped(f"goal {goal.goal} ({goal.text}): {goal.status}", 1, "")
     if goal.cause is not None:
         lines += _wrapped(f"cause: {goal.cause.text}", 4)
-    if goal.proof and (goal.cause is None or goal.proof != goal.cause.text):
+    if goal.proof and (goal.cause is None or not _says(goal.proof, goal.cause.text)):
         lines += _wrapped(f"proof: {goal.proof}", 2)
     for stage in goal.stages:
         if stage.entered or stage.reasons:
@@ -46,13 +46,30 @@ def _has_grasps(goal: GoalReport) -> bool:
     return any(stage.entered for stage in goal.stages)
 
 
+def _says(proof: str, cause: str) -> bool:
+    """Would the proof tell the cause once more?"""
+    return cause.split("; without")[0] in proof
+
+
+def _is_like(reason: Reason, cause: Reason | None) -> bool:
+    """Does a reason of many tell what the cause tells?"""
+    if cause is None:
+        return False
+    same = (reason.kind, reason.end, reason.joint) == (cause.kind, cause.end, cause.joint)
+    return same and reason.bodies[:1] == cause.bodies[:1]
+
+
 def _stage_lines(stage: Stage, cause: Reason | None) -> list[str]:
     counts = f"{stage.passed} of {stage.entered} {STAGES[stage.name]}"
     if stage.name == "found":
         counts = f"{stage.entered}"
-    told = [r for r in stage.reasons if not (r == cause and r.count == 1)][:MOST_REASONS]
+    told = [r for r in stage.reasons if not (r == cause and r.count == 1)]
+    told = sorted(told, key=lambda r: not _is_like(r, cause))[:MOST_REASONS]
     if not stage.entered and not told:
         return []
+    is_moot = stage.name == "connected" and not stage.entered
+    if is_moot and cause is not None and cause.kind != "no_regrasp":
+        return []  # why no regrasp was found tells nothing more
     more = len(stage.reasons) - MOST_REASONS
     if not stage.entered and stage.name == "found":  # nothing of the funnel was looked at
         return [line for reason in told for line in _wrapped(reason.text, 2)]
@@ -64,7 +81,10 @@ def _stage_lines(stage: Stage, cause: Reason | None) -> list[str]:
 
 def _counted(reason: Reason, stage: Stage) -> str:
     text = textwrap.shorten(reason.text, 90, placeholder=" ...")
-    return f"{reason.count} {text}" if stage.entered else text
+    if not stage.entered or (reason.count == 1 and STAGES[stage.name] == "feature pairs"):
+        return text
+    like = " like" if STAGES[stage.name] == "feature pairs" else ":"
+    return f"{reason.count}{like} {text}"
 
 
 def _wrapped(text: str, most: int, indent: str = "  ") -> list[str]:

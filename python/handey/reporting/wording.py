@@ -124,6 +124,11 @@ def of_obstructed(ranked: _core.RankedPair) -> Reason:
     return Reason("obstructed", "unobstructed", text, end=end, bodies=tuple(bodies), by=taken)
 
 
+def _at_least(by: float, unit: str) -> str:
+    """By how much the nearest of many missed, where that tells something."""
+    return f", by {by:.1f} {unit} at least" if by >= 0.1 else ""
+
+
 def of_fallen(fallen: _core.Fallen, names: Names) -> Reason:
     """Hand poses that fell alike."""
     kind, end = _FALLEN[fallen.kind.name], ENDS[fallen.end.name]
@@ -131,14 +136,21 @@ def of_fallen(fallen: _core.Fallen, names: Names) -> Reason:
     text, mover, joint = fallen.text, "", ""
     bodies: tuple[str, ...] = ()
     if kind == "joint_limit":
-        joint, text = names.joints[fallen.joint], names.past(fallen.joint, by or 0.0)
+        joint = names.joints[fallen.joint]
+        text = f"{joint} past its limit{_at_least(math.degrees(by or 0.0), 'degrees')}"
+    elif kind == "out_of_reach":
+        side = "beyond reach" if "beyond" in fallen.text else "too near"
+        text = f"wrist centre {side}{_at_least(1e3 * (by or 0.0), 'mm')}"
     elif kind == "collision":
         mover, body = names.pair(fallen.mover, fallen.body)
         bodies = (body,)
         text = names.hits(fallen.mover, fallen.body, by)
-    return Reason(
-        kind, "reachable", text + at_end(end), fallen.count, end, bodies, mover, joint, by
-    )
+    if kind in ("joint_limit", "out_of_reach"):  # the number comes last
+        what, comma, more = text.partition(",")
+        text = f"{what}{at_end(end)}{comma}{more}"
+    else:
+        text += at_end(end)
+    return Reason(kind, "reachable", text, fallen.count, end, bodies, mover, joint, by)
 
 
 def of_obstacle(obstacle: _core.GraspObstacle, names: Names) -> Reason:
