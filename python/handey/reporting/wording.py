@@ -139,7 +139,7 @@ def of_fallen(fallen: _core.Fallen, names: Names) -> Reason:
         joint = names.joints[fallen.joint]
         text = f"{joint} past its limit{_at_least(math.degrees(by or 0.0), 'degrees')}"
     elif kind == "out_of_reach":
-        side = "beyond reach" if "beyond" in fallen.text else "too near"
+        side = "beyond reach" if "beyond" in fallen.text else "too close to an axis"
         text = f"wrist centre {side}{_at_least(1e3 * (by or 0.0), 'mm')}"
     elif kind == "collision":
         mover, body = names.pair(fallen.mover, fallen.body)
