@@ -19,9 +19,10 @@ __all__ = ["diagnose", "explain"]
 
 
 MOST_WHEN_STOPPED = 2  # Choice: grasps that are looked round when the time is up
-# Where hand poses fall by these, by as much at least, the arm is often walled off too, by what it
-# meets on the way [rad], [m]. Choice: what falls by less is found legal by a denser look.
-ENDS_WAYS = {"joint_limit": 0.01, "out_of_reach": 0.001}
+# Where no hand pose is legal by one of these, there often is no way either: that follows from it.
+BEFORE_WAYS = ("unobstructed", "reachable")
+# Choice: what falls by less is found legal by a denser look [rad], [m].
+LEAST_MISSED = {"joint_limit": 0.01, "out_of_reach": 0.001}
 NEAREST = 8000  # Choice: hand poses among which the nearest miss is looked for
 
 
@@ -72,15 +73,29 @@ def _explain(goal: GoalReport) -> None:
         with_depths(goal.stages[3], looked.diagnosis, looked.names)
     if has_failed:
         cause = find_cause(goal.stages, goal.refusals, looked, goal.proof)
-        goal.cause = _of_both(goal.cause, cause, bool(goal.proof))
+        obstacles = [] if looked.diagnosis is None else looked.diagnosis.obstacles
+        is_single = any(obstacle.alone for obstacle in obstacles)
+        goal.cause = _of_both(goal.cause, cause, bool(goal.proof), is_single)
 
 
-def _of_both(proof: Reason | None, found: Reason | None, proved: bool) -> Reason | None:
-    """The cause by a proof, which knows a bound for all hand poses, or what the nearest misses."""
-    if proof is not None and found is not None and proof.stage == "connected":
-        least = ENDS_WAYS.get(found.kind)
-        if found.end == proof.end and least is not None and (found.by or 0.0) >= least:
-            return found  # that the arm does not come there follows from it
+def _of_both(
+    proof: Reason | None, found: Reason | None, proved: bool, is_single: bool = False
+) -> Reason | None:
+    """The cause by a proof, which knows a bound for all hand poses, or what the nearest misses.
+
+    Args:
+        proof: the proof's.
+        found: what explains best where the hand poses looked at fell.
+        proved: there is a proof.
+        is_single: with that alone away, some of them would be legal.
+    """
+    if proof is not None and found is not None and is_single and proof.stage == "connected":
+        is_first = found.stage in BEFORE_WAYS and found.end == proof.end
+        is_first = is_first and (found.by or 0.0) >= LEAST_MISSED.get(found.kind, 0.0)
+    else:
+        is_first = False
+    if is_first:
+        return found
     if found is None or (proof is not None and (proof.kind, proof.end) != (found.kind, found.end)):
         return proof
     return replace(found, proved=True) if proved else found
