@@ -134,6 +134,7 @@ Polygon convex_hull(const std::vector<Eigen::Vector2d>& points) {
   // Monotone chain. No tolerance here: where points differ in x by rounding alone, one that counts
   // as collinear may be the corner of an upright side.
   Polygon hull;
+  hull.reserve(sorted.size() + 1);
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (const Eigen::Vector2d& point : sorted) {

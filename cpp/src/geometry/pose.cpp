@@ -70,16 +70,18 @@ void require_rigid(const Pose& pose, const std::string& place) {
   const Eigen::Matrix3d defect = rotation.transpose() * rotation - Eigen::Matrix3d::Identity();
   const double error = defect.cwiseAbs().maxCoeff();
   const Eigen::RowVector4d last = matrix.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
+  const bool is_reflection = rotation.determinant() < 0.0;
+  const bool is_rigid =
+      error <= kRigidTolerance && !is_reflection && last.cwiseAbs().maxCoeff() <= kRigidTolerance;
+  if (is_rigid) return;  // a stream takes longer to make than all of the tests
   std::ostringstream text;
   if (error > kRigidTolerance) {
     text << "found axes that are not orthonormal (R^T R differs from the identity by " << error
          << "), expected at most " << kRigidTolerance;
-  } else if (rotation.determinant() < 0.0) {
+  } else if (is_reflection) {
     text << "found a reflection (determinant -1), expected a right-handed rotation";
-  } else if (last.cwiseAbs().maxCoeff() > kRigidTolerance) {
-    text << "found last row [" << matrix.row(3) << "], expected [0 0 0 1]";
   } else {
-    return;
+    text << "found last row [" << matrix.row(3) << "], expected [0 0 0 1]";
   }
   throw InvalidInput("E_NUMBER", place, text.str());
 }

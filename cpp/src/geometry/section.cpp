@@ -59,17 +59,19 @@ Region hull_region(const std::vector<Eigen::Vector2d>& points) {
   return Region{{hull}};
 }
 
-Region convex_projection(const TriangleMesh& polyhedron, const Slab& slab) {
+Region convex_projection(const std::vector<Eigen::Vector3d>& vertices,
+                         const std::vector<Eigen::Vector3i>& triangles, const Slab& slab) {
   std::vector<Eigen::Vector2d> outline;
-  for (const Eigen::Vector3d& vertex : polyhedron.vertices) {
+  outline.reserve(2 * vertices.size());
+  for (const Eigen::Vector3d& vertex : vertices) {
     if (slab.holds(vertex.z())) outline.push_back(vertex.head<2>());
   }
-  // Edges come twice, with each of their triangles: the hull drops one of them.
-  for (const Eigen::Vector3i& triangle : polyhedron.triangles) {
+  if (outline.size() == vertices.size()) return hull_region(outline);  // nothing is cut off
+  // An edge rises in one of its two triangles.
+  for (const Eigen::Vector3i& triangle : triangles) {
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d& a = polyhedron.vertices[static_cast<std::size_t>(triangle[k])];
-      const Eigen::Vector3d& b =
-          polyhedron.vertices[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      const Eigen::Vector3d& a = vertices[static_cast<std::size_t>(triangle[k])];
+      const Eigen::Vector3d& b = vertices[static_cast<std::size_t>(triangle[(k + 1) % 3])];
       for (const double z : {slab.lower, slab.upper}) {
         if (a.z() < z && b.z() >= z) outline.push_back(crossing(a, b, z));
       }
@@ -255,12 +257,14 @@ Region slab_projection(const Shape& shape, const Pose& X_GB, double lower, doubl
   const MeshShape* mesh = std::get_if<MeshShape>(&shape.geometry);
   if (mesh == nullptr) {
     TriangleMesh polyhedron = tessellate(Shape{shape.geometry, X_GS}, kSegments, true);
-    return misses(polyhedron.vertices, slab) ? Region{} : convex_projection(polyhedron, slab);
+    return misses(polyhedron.vertices, slab)
+               ? Region{}
+               : convex_projection(polyhedron.vertices, polyhedron.triangles, slab);
   }
   std::vector<Eigen::Vector3d> vertices = transformed(mesh->mesh->vertices, X_GS);
   if (misses(vertices, slab)) return {};
   if (is_known_convex(*mesh)) {
-    return convex_projection({std::move(vertices), mesh->mesh->triangles}, slab);
+    return convex_projection(vertices, mesh->mesh->triangles, slab);
   }
   MeshProjection projection(std::move(vertices), slab);
   return mesh->solid ? projection.of_solid(mesh->mesh->triangles)

@@ -17,10 +17,10 @@ constexpr int kFewestSegments = 3;
 constexpr int kMostSegments = 4096;
 
 void require_positive(double value, const char* name, const std::string& place) {
+  if (std::isfinite(value) && value > 0.0) return;
   std::ostringstream text;
   text << name << " is " << value << ", expected a finite length > 0 [m]";
-  if (!std::isfinite(value)) throw InvalidInput("E_NUMBER", place, text.str());
-  if (!(value > 0.0)) throw InvalidInput("E_GEOMETRY", place, text.str());
+  throw InvalidInput(std::isfinite(value) ? "E_GEOMETRY" : "E_NUMBER", place, text.str());
 }
 
 struct RequireValid {

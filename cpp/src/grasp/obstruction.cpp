@@ -60,24 +60,23 @@ Polygon grown_convex(const Polygon& polygon, double delta) {
     along.push_back((points[(i + 1) % count] - points[i]).normalized());
   }
   Polygon result;
-  double turned = 0.0;
+  int rounds = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d &before = along[(i + count - 1) % count], &after = along[i];
     const Eigen::Vector2d out_before(before.y(), -before.x()), out_after(after.y(), -after.x());
     const double sine = before.x() * after.y() - before.y() * after.x();
     if (sine <= 0.0) return {};
-    const double angle = std::atan2(sine, before.dot(after));
-    turned += angle;
+    if (before.y() < 0.0 && after.y() >= 0.0) ++rounds;
     const double straightness = 1.0 + before.dot(after);
     if (straightness >= kSharp) {
       result.push_back(points[i] + (delta / straightness) * (out_before + out_after));
     } else {
-      const double cut = std::tan(0.25 * angle);
+      const double cut = std::tan(0.25 * std::atan2(sine, before.dot(after)));
       result.push_back(points[i] + delta * (out_before + cut * before));
       result.push_back(points[i] + delta * (out_after - cut * after));
     }
   }
-  return turned < 7.0 ? result : Polygon{};  // once round: 2 pi
+  return rounds == 1 ? result : Polygon{};
 }
 
 /// Contains all within delta of the region; as `offset`, but quick for a convex one.
