@@ -31,6 +31,11 @@ constexpr int kBroadFirst = 31;
 // on to the halves without a look [m].
 constexpr double kHopeless = 0.1;
 
+// Choice: of so many pieces of one body near a mover, one by one, nearly all would go on to the
+// halves even where it moves by less than that.
+constexpr int kCrowd = 16;
+constexpr double kHopelessInCrowd = 0.03;  // [m]
+
 /// Middle `at` and half width of a stretch in the parameter of the edge, and what is not yet proved
 /// on it.
 struct Stretch {
@@ -143,7 +148,9 @@ class EdgeProof {
     looked_at_.assign(checker_.movers.size(), 0);
     std::vector<int> hopeless;
     for (const int m : stretch.movers) {
-      if (bounds_.approach({m, -1, -1, -1}) > kHopeless) {
+      const double approach = bounds_.approach({m, -1, -1, -1});
+      if (approach > kHopeless || (approach > kHopelessInCrowd &&
+                                   checker_.is_in_crowd(m, needed({m, -1, -1, -1}), kCrowd))) {
         hopeless.push_back(m);
       } else {
         looked_at_[static_cast<std::size_t>(m)] = 1;

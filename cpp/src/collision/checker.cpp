@@ -234,6 +234,21 @@ double CollisionChecker::Impl::rough_distance(const PiecePair& pair) const {
                   collision::box_to_box(X_RP, own.box.half, X_RQ, other.box.half));
 }
 
+bool CollisionChecker::Impl::is_in_crowd(int mover, double reach, int count) const {
+  const std::size_t m = static_cast<std::size_t>(mover);
+  const double radius = movers[m].geometry->radius;
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const Obstacle& obstacle = obstacles[o];
+    if (!movers[m].against[o] || !obstacle.geometry->has_tree()) continue;
+    const Vector3d local =
+        obstacle.X_RB.linear().transpose() * (mover_centres[m] - obstacle.X_RB.translation());
+    int near = 0;
+    const auto is_last = [&](int) { return ++near >= count; };
+    if (obstacle.geometry->tree.visit_near(local, radius, reach, is_last)) return true;
+  }
+  return false;
+}
+
 Hit CollisionChecker::Impl::hit(const PiecePair& pair, double distance) const {
   Hit result;
   result.a = movers[static_cast<std::size_t>(pair.mover)].label;

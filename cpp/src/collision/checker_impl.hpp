@@ -92,6 +92,9 @@ struct CollisionChecker::Impl {
                 .geometry->pieces[static_cast<std::size_t>(index)];
   }
 
+  /// Are so many pieces of one body nearer to the ball of a mover than this? [m]
+  bool is_in_crowd(int mover, double reach, int count) const;
+
   /// Calls visit(pair) for every pair of pieces whose balls and boxes are not seen to be farther
   /// apart than reach(pair); stops when visit is true. reach is also asked for whole movers: their
   /// pieces are then -1.
