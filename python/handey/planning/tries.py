@@ -35,6 +35,7 @@ MOST_ALIKE = 8  # the same, where what first met what is the same of all of them
 MOST_CAUGHT = (10, 3)  # that get each greater budget before all have had the least
 MOST_AGAIN = (6, 3, 1)
 MOST_SEARCHED = 5
+MOST_STUCK = 12  # slides that fail, before the second configuration of a grasp is passed over
 MOST_JOINED = 12  # Choice: to so many grasps at once a way of the empty hand is looked for
 FEW_REGRASPS = (3, 1, 0)  # sequences tried where many grasps have fallen at their gross motions
 WAITING = 3  # Choice: grasps that fell before the first of them gets a greater budget
@@ -76,6 +77,7 @@ class Tries:
         waiting: by round, what fell at a gross motion in the round before.
         slid: grasps to which no slide led, still to be approached by search.
         stalled: how many of these since one was searched for.
+        stuck: the same in all.
         searched: to how many a way was searched for.
         fallen: grasps that fell near obstacles.
         grasps: how many were taken up.
@@ -90,6 +92,7 @@ class Tries:
     waiting: dict[int, list[_Try]] = field(default_factory=dict)
     slid: list[_Try] = field(default_factory=list)
     stalled: int = 0
+    stuck: int = 0
     searched: int = 0
     fallen: list[_Try] = field(default_factory=list)
     grasps: int = 0
@@ -110,7 +113,7 @@ class Tries:
     def reach_any(self, grasps: Iterator[Grasp]) -> Carry | None:
         """Steps 4 to 6 with the least budget for one grasp after the other: the first that serves.
 
-        Every grasp is tried with up to two configurations of the arm.
+        Every grasp is tried with up to two configurations of the arm, with one where many stick.
         """
         stop_at = min(self.unconnected + MOST_FALLEN, MOST_IN_ALL)
         while self.unconnected < stop_at and not self._are_alike():
@@ -120,7 +123,7 @@ class Tries:
             self.grasps += 1
             found = self.report.counts.get("legal grasp poses", self.grasps)
             self._announce(f"grasp {self.grasps} of {found}")
-            for q_pick in aim.q_pick[:2]:
+            for q_pick in aim.q_pick[: 1 if self.stuck >= MOST_STUCK else 2]:
                 attempt = _Try(self.grasps, describe(pair, aim), pair, aim, q_pick)
                 carry = self._slide(attempt) or self._catch_up()
                 if carry is not None:
@@ -194,6 +197,7 @@ class Tries:
         if not approach and self.options.direct.approach.search_levels > 0:
             self.slid.append(attempt)
             self.stalled += 1
+            self.stuck += 1
         else:
             attempt.approach = approach
             self._fell(attempt, reach)
