@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from handey import _core
-from handey.advising.find_advice import find_advice
+from handey.advising.find_advice import PATIENCE, find_advice
 from handey.cache import table_directory
 from handey.cell_file import CellFile
 from handey.errors import Fault, InvalidInput, Stopped
@@ -132,9 +132,10 @@ def _advise(
     cancel: _core.CancelToken | None,
 ) -> None:
     """Look for the nearest change that plans, within what is left of the time; never an error."""
-    left = options.advice_seconds
+    left, longest = options.advice_seconds, PATIENCE * options.advice_seconds
     if options.deadline is not None:
-        left = min(left, options.deadline - report.wall_s)
+        longest = min(longest, options.deadline - report.wall_s)
+        left = min(left, longest)
     if left <= 0:
         return
     begin_wall, begin_cpu = time.perf_counter(), time.process_time()
@@ -142,7 +143,9 @@ def _advise(
     try:
         with clock("advice"):
             _core.run_within(
-                lambda: find_advice(cell_file, wanted, report, plan), cancel=cancel, deadline=left
+                lambda: find_advice(cell_file, wanted, report, plan),
+                cancel=cancel,
+                deadline=longest,
             )
     except Stopped:
         pass  # what was found so far is not certain

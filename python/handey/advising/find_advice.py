@@ -25,9 +25,10 @@ from handey.reporting.advice import Advice, Edit
 from handey.reporting.reasons import Reason
 from handey.reporting.report import Report
 
-__all__ = ["find_advice"]
+__all__ = ["PATIENCE", "find_advice"]
 
 MOST_BODIES = 4  # Choice: of those blamed, so many are tried to be moved
+PATIENCE = 4.0  # Choice: on the wall's clock the search may take so many times as long
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
 # Choice: trials in vain after a change that plans, and their share of the time.
@@ -52,18 +53,24 @@ def find_advice(
 
     Args:
         cell_file: whose planning failed.
-        options: of that planning; `advice_seconds` bounds the time.
+        options: of that planning; `advice_seconds` bounds the CPU time.
         report: of it.
         planner: plans a changed cell.
     """
-    start = time.perf_counter()
+    start, begin = time.thread_time(), time.perf_counter()
+
+    def slowness() -> float:
+        cpu = report.cpu_s + time.thread_time() - start
+        wall = report.wall_s + time.perf_counter() - begin
+        return min(PATIENCE, max(1.0, wall / max(cpu, 1e-3)))
+
     failed = next((goal for goal in report.goals if goal.status == "failed"), None)
     if failed is None:
         return
     model = _core.make_collision_model(cell_file.cell, cell_file.model)
     here = Situation(cell_file, failed.goal, failed, model)
     end = start + (1 - FOR_PROOF) * options.advice_seconds
-    search = _Search(here, Trials(here, options, planner, end))
+    search = _Search(here, Trials(here, options, planner, end, slowness))
     search.run()
     if search.culprit and failed.cause is not None and failed.cause.kind in MOTIONS:
         failed.cause = _blaming(failed.cause, search.culprit)

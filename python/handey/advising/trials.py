@@ -8,6 +8,7 @@ the time goes. Not guaranteed: that a change fails for good which failed here.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
@@ -87,7 +88,9 @@ class Trials:
         here: the goal that failed.
         options: of the plan that failed.
         planner: plans a changed cell.
-        end: on the clock of `time.perf_counter`; no trial goes on after it.
+        end: on the clock of `time.thread_time`; no trial goes on after it.
+        slowness: seconds on the wall's clock in which the thread gets one; a deadline is longer by
+            that, so that other work on the machine changes little.
         count: trials so far.
     """
 
@@ -95,12 +98,13 @@ class Trials:
     options: PlanOptions
     planner: Planner
     end: float
+    slowness: Callable[[], float] = lambda: 1.0
     count: int = 0
 
     @property
     def left(self) -> float:
-        """Until the end [s]."""
-        return self.end - time.perf_counter()
+        """CPU time of this thread until the end [s]."""
+        return self.end - time.thread_time()
 
     def plans(self, change: Change, effort: int = 0) -> bool:
         """Does the goal plan with the change, with little effort?"""
@@ -112,10 +116,14 @@ class Trials:
         longest = HALF if effort > 1 else longest
         options = replace(
             little(self.options, effort, regrasps),
-            deadline=max(1e-3, min(longest * self.options.advice_seconds, self.left)),
+            deadline=self._deadline(min(longest * self.options.advice_seconds, self.left)),
         )
         self.count += 1
         return self.planner(cell, options).plan is not None
+
+    def _deadline(self, seconds: float) -> float:
+        """On the wall's clock, for so much CPU time [s]."""
+        return max(1e-3, seconds * self.slowness())
 
     def read(self, change: Change) -> CellFile | None:
         """The cell as its files would be read with the change; None if it would be refused."""
@@ -136,9 +144,9 @@ class Trials:
         """Does it not plan with all effort, in the time that is left?"""
         if self.left <= 0:
             return False
-        result = self.planner(
-            cell, replace(self.options, advice=False, diagnosis=False, deadline=self.left)
-        )
+        deadline = self._deadline(self.left)
+        options = replace(self.options, advice=False, diagnosis=False, deadline=deadline)
+        result = self.planner(cell, options)
         return result.plan is None and not result.report.stopped
 
     def _of_cell(self, change: Change) -> list[Any]:
