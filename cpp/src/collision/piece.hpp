@@ -12,6 +12,7 @@
 
 #include "convex_distance.hpp"
 #include "handey/collision/scene.hpp"
+#include "handey/collision/solids.hpp"
 #include "handey/geometry/shape.hpp"
 #include "mesh_distance.hpp"
 #include "surface_tree.hpp"
@@ -71,12 +72,15 @@ class Piece {
   /// Convex polyhedra whose union contains a convex piece, or the surface of one that is not; by
   /// the usual options.
   const std::vector<SceneHull>& covering() const;
+  /// Convex solids wholly inside it.
+  const std::vector<InnerSolid>& inside() const;
 
  private:
   MadeOnce<Polyhedral> polyhedral_;
   MadeOnce<std::shared_ptr<const SurfaceModel>> surface_;
   MadeOnce<SceneHull> wrapping_;
   MadeOnce<std::vector<SceneHull>> covering_;
+  MadeOnce<std::vector<InnerSolid>> inside_;
 };
 
 using Pieces = std::vector<std::shared_ptr<const Piece>>;

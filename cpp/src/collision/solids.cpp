@@ -118,30 +118,39 @@ std::vector<Vector3d> corners_of(const Eigen::AlignedBox3d& box, const Pose& X) 
   return corners;
 }
 
-void add_inner_solids(const collision::Piece& piece, std::vector<InnerSolid>& solids) {
-  if (!piece.solid) return;
+std::vector<InnerSolid> make_inner_solids(const collision::Piece& piece) {
+  std::vector<InnerSolid> solids;
+  if (!piece.solid) return solids;
   if (!piece.convex) {
     for (const Eigen::AlignedBox3d& box : collision::inner_boxes(piece)) {
       add_solid(inner_hull(corners_of(box, piece.box.X_BO)), solids);
     }
-    return;
+    return solids;
   }
   if (piece.hull.kind == collision::ConvexSolid::Kind::Points && piece.hull.points.size() > 1) {
     add_solid(inner_hull(piece.hull.points), solids);
-    return;
+    return solids;
   }
   const bool ball = std::holds_alternative<Sphere>(piece.shape.geometry);
   add_solid(inner_hull(tessellate(piece.shape, ball ? kBallSegments : kSegments, false).vertices),
             solids);
+  return solids;
 }
 
 std::vector<InnerSolid> inner_solids(const collision::BodyGeometry& geometry) {
   std::vector<InnerSolid> solids;
-  for (const auto& piece : geometry.pieces) add_inner_solids(*piece, solids);
+  for (const auto& piece : geometry.pieces) {
+    const std::vector<InnerSolid>& inside = piece->inside();
+    solids.insert(solids.end(), inside.begin(), inside.end());
+  }
   return solids;
 }
 
 }  // namespace
+
+const std::vector<InnerSolid>& collision::Piece::inside() const {
+  return inside_.get([this] { return make_inner_solids(*this); });
+}
 
 double InnerSolid::depth(const Vector3d& point) const {
   double least = std::numeric_limits<double>::infinity();
