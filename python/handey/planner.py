@@ -41,6 +41,8 @@ from handey.task import PlaceAt
 
 __all__ = ["PlanOptions", "PlanResult", "plan"]
 
+QUICK = 0.8  # Choice: what planning takes beyond this is taken off the time for advice [s]
+
 
 @dataclass(frozen=True)
 class PlanResult:
@@ -124,6 +126,11 @@ def plan(
     return PlanResult(replace(result, report=report.as_dict()), report)
 
 
+def _time_for_advice(wanted: float, spent: float) -> float:
+    """Less where it took long to find no plan, so that the answer does not take much longer [s]."""
+    return min(wanted, max(0.45 * wanted, wanted + QUICK - spent))
+
+
 def _advise(
     cell_file: CellFile,
     options: PlanOptions,
@@ -132,7 +139,8 @@ def _advise(
     cancel: _core.CancelToken | None,
 ) -> None:
     """Look for the nearest change that plans, within what is left of the time; never an error."""
-    left, longest = options.advice_seconds, PATIENCE * options.advice_seconds
+    left = _time_for_advice(options.advice_seconds, report.cpu_s)
+    longest = PATIENCE * left
     if options.deadline is not None:
         longest = min(longest, options.deadline - report.wall_s)
         left = min(left, longest)

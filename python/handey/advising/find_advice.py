@@ -32,7 +32,7 @@ PATIENCE = 4.0  # Choice: on the wall's clock the search may take so many times 
 FOR_PROOF = 0.3  # Choice: share of the time that is kept for the last look at the change
 WORTH = 0.8  # Choice: a change of another kind is tried if it costs less than this share
 # Choice: trials in vain after a change that plans, and their share of the time.
-PATIENCE, PATIENT = 6, 0.2
+IN_VAIN, PATIENT = 6, 0.2
 DEAR = 0.05  # Choice: as much less plausible is what costs one shift of 10 mm more
 HARDER = 6.0  # Choice: as much less plausible is it that more effort helps
 PROVED = 8.0  # Choice: as much more plausible is what moves a body without which it plans
@@ -154,7 +154,7 @@ class _Search:
         failed: dict[tuple[int, int], list[float]] = {}
         last, until = 0, 0.0
         while waiting and self.trials.left > 0:
-            if self.found and (self.trials.count > last + PATIENCE or self.trials.left < until):
+            if self.found and (self.trials.count > last + IN_VAIN or self.trials.left < until):
                 break
             it = min(waiting, key=self._rank)
             waiting.remove(it)

@@ -53,7 +53,8 @@ class PlanOptions:
         prove: look for a proof that there is no plan where the first tries fail.
         diagnosis: where no grasp is legal, look for what alone keeps hand poses from being so.
         advice: where no plan is found, look for the nearest change with which there is one.
-        advice_seconds: of the thread's CPU time for that; on the clock at most four times as much.
+        advice_seconds: of the thread's CPU time for that, down to half where finding no plan took
+            longer than usual; on the clock at most four times as much.
 
     Raises:
         TypeError: if a number is none.
