@@ -16,6 +16,7 @@ from browsing import needs_browser, new_browser, opened, severe
 from hand_made import ROBOT, write_cell
 
 from handey.cli import main
+from handey.commands.ending import interrupts
 from handey.view.watch import Watch, files_of
 
 PATIENCE = 30.0  # s; for a machine that does other things too
@@ -179,3 +180,12 @@ def test_the_browser_comes_anew_and_keeps_the_camera(served, tmp_path):
         wait_for(lambda: "ended" in told("live"))
     finally:
         browser.quit()
+
+
+def test_ctrl_c_is_noted_where_an_exception_would_be_lost():
+    before = signal.getsignal(signal.SIGINT)
+    with interrupts() as pressed:
+        assert not pressed.is_set()
+        os.kill(os.getpid(), signal.SIGINT)
+        assert pressed.wait(5.0)
+    assert signal.getsignal(signal.SIGINT) is before

@@ -17,7 +17,7 @@ std::shared_ptr<const Piece> piece_of(const Geometry& geometry) {
 
 /// Oracle: distance of two polyhedra from FCL's triangle pairs.
 double triangle_distance(const Piece& a, const Pose& X_WA, const Piece& b, const Pose& X_WB) {
-  return surface_distance(*a.polyhedral().surface, X_WA, *b.polyhedral().surface, X_WB, 10.0);
+  return surface_distance(a.surface(), X_WA, b.surface(), X_WB, 10.0);
 }
 
 TEST(ConvexDistance, BoxesAgreeWithTheDistanceOfTheirTriangles) {

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import queue
+import signal
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
 from handey.commands.terminal import complain, tell
@@ -24,6 +26,7 @@ __all__ = [
     "OK",
     "DeadlinePassedError",
     "deadline_passed",
+    "interrupts",
     "within",
 ]
 
@@ -31,6 +34,23 @@ OK, NOT_VALID, BAD_INPUT, NO_PLAN, INTERNAL, DEADLINE, INTERRUPTED = 0, 1, 2, 3,
 # Choice: after Ctrl-C the report of a planner that is told to stop is waited for so long [s].
 TIME_TO_STOP = 1.0
 Result = TypeVar("Result")
+
+
+@contextlib.contextmanager
+def interrupts() -> Iterator[threading.Event]:
+    """Inside, Ctrl-C sets the event instead of raising `KeyboardInterrupt`.
+
+    An exception that is raised while a module is imported may be lost; an event is not.
+    """
+    pressed = threading.Event()
+    if threading.current_thread() is not threading.main_thread():  # where no signal arrives
+        yield pressed
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: pressed.set())
+    try:
+        yield pressed
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 class DeadlinePassedError(Exception):

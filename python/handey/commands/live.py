@@ -1,6 +1,6 @@
 """The live page: watches the files of a cell, plans anew when one is saved, shows what came of it.
 
-One thread serves, one plans, and the main thread watches, so that Ctrl-C ends all of it at once. A
+One thread serves, one plans, and the main thread watches until Ctrl-C ends all of it at once. A
 save while planning is under way stops that planning. A file that cannot be read is shown as its
 faults, until it can.
 """
@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import threading
-import time
 from pathlib import Path
 
 from handey._core import CancelToken
@@ -27,8 +26,12 @@ __all__ = ["serve"]
 LOOKED_AT_EVERY = 0.2  # Choice: a save is seen before the hand is off the key [s]
 
 
-def serve(options: argparse.Namespace) -> int:
-    """Serves until Ctrl-C.
+def serve(options: argparse.Namespace, ended: threading.Event) -> int:
+    """Serves until it is ended.
+
+    Args:
+        options: of the command line.
+        ended: set where Ctrl-C was pressed.
 
     Raises:
         InvalidInput: E_PORT if the port cannot be had.
@@ -42,12 +45,13 @@ def serve(options: argparse.Namespace) -> int:
         if not options.quiet:
             print(f"page: {server.address} (Ctrl-C ends)", flush=True)
         watch = Watch(cell, *([Path(options.plan)] if options.plan else []))
-        while True:
+        while not ended.is_set():
             if watch.changed():
                 if work is not None:
                     work.stop()
                 work = _Work(options, server)
-            time.sleep(LOOKED_AT_EVERY)
+            ended.wait(LOOKED_AT_EVERY)
+        return OK
     except KeyboardInterrupt:
         return OK
     finally:

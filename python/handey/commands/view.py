@@ -10,7 +10,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from handey.commands.ending import INTERRUPTED, OK
+from handey.commands.ending import INTERRUPTED, OK, interrupts
 from handey.commands.terminal import complain, warn
 from handey.errors import Fault, InvalidInput
 from handey.formats.output import keep_inputs, require_writable
@@ -21,10 +21,11 @@ __all__ = ["view_command"]
 def view_command(options: argparse.Namespace) -> int:
     """Writes the page, or serves it."""
     if options.serve:
-        from handey.commands.live import serve
-
         _refuse(options.output is not None, "--output", "no file is written with --serve")
-        return serve(options)
+        with interrupts() as ended:
+            from handey.commands.live import serve
+
+            return serve(options, ended)
     _refuse(options.port is not None, "--port", "is used with --serve alone")
 
     output = Path(options.output or f"{Path(options.cell).stem}.html")
