@@ -210,9 +210,12 @@ const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
       {"Hull",
        [](Bench&, Print& out) {
+         // A golden spiral: no four points in a plane, whose facets qhull would merge in any order.
          std::vector<Eigen::Vector3d> points;
-         for (const Eigen::Vector3d& point : fine_ring(80, 40).mesh->vertices) {
-           points.push_back(point.normalized());
+         for (int i = 0; i < 3000; ++i) {
+           const double z = (i + 0.5) / 1500.0 - 1.0, round = std::sqrt(1.0 - z * z),
+                        turn = 2.4 * i;
+           points.emplace_back(round * std::cos(turn), round * std::sin(turn), z);
          }
          const ConvexPolyhedron hull = convex_hull(points);
          out << hull.vertices.size() << hull.faces.size() << is_convex(triangulate(hull));
