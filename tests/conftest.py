@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import signal
 
 import pytest
 from hand_made import pick_and_place, write_cell
@@ -11,6 +12,9 @@ from inspected import CELLS, MM, PARTS, ROBOT
 from handey.cell_file import load_cell
 from handey.inspection import inspect_cell, inspect_mesh
 from handey.robot_file import load_robot
+
+# A shell's background jobs start with Ctrl-C ignored, and so would the programs that tests start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="module")

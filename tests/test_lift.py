@@ -61,7 +61,7 @@ def test_a_part_that_fits_exactly_is_refused_with_the_plain_reason(tmp_path: Pat
         part="{box: [0.04, 0.06, 0.03], pose: {xyz: [0.5, 0.2, 0.015]}}",
         goal="{xyz: [0.45, -0.25, 0.015]}",
     )
-    reasons = " ".join(handey.plan(cell).report.reasons)
+    reasons = " ".join(" ".join(handey.plan(cell).report.reasons).split())  # lines are broken
     assert "still touches" in reasons and "fits too closely to be moved out" in reasons
 
 
