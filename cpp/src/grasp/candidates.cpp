@@ -100,6 +100,9 @@ std::vector<Place> places_of(const RankedPair& pair, const Gripper& gripper,
   return places;
 }
 
+// A fine lattice has a million candidates: between two looks whether to stop.
+constexpr std::size_t kComparedAtOnce = 10000;
+
 }  // namespace
 
 FingerRoom::FingerRoom(const RankedPair& pair, const Robot& robot) {
@@ -265,9 +268,12 @@ CandidateList make_candidates(const RankedPair& pair, const Robot& robot,
   CandidateList list;
   CandidateMaker maker(pair, robot, down_in_G, demand, hold, options);
   for (std::size_t slot = 0; slot < maker.slots(); ++slot) maker.make(slot, list);
-  std::stable_sort(
-      list.candidates.begin(), list.candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return a.promise > b.promise + 1e-12; });
+  std::size_t compared = 0;
+  std::stable_sort(list.candidates.begin(), list.candidates.end(),
+                   [&compared](const Candidate& a, const Candidate& b) {
+                     if (++compared % kComparedAtOnce == 0) throw_if_stopped();
+                     return a.promise > b.promise + 1e-12;
+                   });
   return list;
 }
 
